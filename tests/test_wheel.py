@@ -68,7 +68,7 @@ def ends(path: Path) -> set[str]:
 
 def tracked() -> list[Path]:
     """Files of the distribution in the checkout."""
-    built = {"__pycache__", *EXTENSION_SUFFIXES}
+    built = {"__pycache__", ".stamp", *EXTENSION_SUFFIXES}
     inside = [p for p in (ROOT / "plantar").rglob("*") if p.is_file() and not built & {*p.parts, *ends(p)}]
     return [
         p.relative_to(ROOT)
@@ -122,7 +122,9 @@ def test_the_sdist_holds_what_its_tests_need(tmp_path):
     with tarfile.open(built) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
     for folder in ("tests", "examples", "docs", "tools", "plantar"):
-        files = [p for p in (source / folder).rglob("*") if p.is_file() and not ends(p) & {".so", ".pyd", ".c"}]
+        files = [
+            p for p in (source / folder).rglob("*") if p.is_file() and not ends(p) & {".so", ".pyd", ".c", ".stamp"}
+        ]
         missing = {p.relative_to(source).as_posix() for p in files} - names
         assert missing == set()
     assert {"Makefile", "constraints.txt", "mkdocs.yml", "CHANGELOG.md", ".ci/run"} <= names
@@ -138,7 +140,8 @@ def test_the_wheel_holds_code_and_data(wheel):
         for p in tracked()
         if len(p.parts) > 1 and (p.suffix in {".py", ".pxd", *data} or p.name == "py.typed")
     }
-    assert names - extensions_in(wheel) == wanted
+    stamp = {"plantar/kernels/compiled.stamp"} if kernels_that_compile() else set()
+    assert names - extensions_in(wheel) == wanted | stamp
     assert {n.partition("/")[0] for n in names} == {"plantar"}
     assert {n.partition(".")[0] for n in extensions_in(wheel)} == kernels_that_compile()
     assert "plantar/py.typed" in names

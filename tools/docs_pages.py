@@ -130,6 +130,7 @@ WHAT_TO_DO = {
     "RobotError": "`plantar robot check ROBOT.toml` measures what would go wrong, and which value works.",
     "SceneError": "The nearest key is named; `plantar list settings` lists all with their ranges.",
     "WorkerError": "What was run is kept: give the same command again when the workers are back.",
+    "KernelError": "Install a C compiler and run the command of the message; `plantar doctor` shows what is compiled.",
     "DependencyError": "The message holds the `pip install` line; `plantar doctor` shows all at once.",
 }
 """What a user does about each error."""

@@ -5,7 +5,7 @@ what `ReadOptions.columns` states; one without either is nothing.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import chain, islice
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from plantar.formats.table_text import (
     head_of_table,
     seconds_of_time,
     time_unit,
-    with_column,
+    with_columns,
     without_quotes,
 )
 from plantar.formats.text import head_text, number, open_text, table_of_lines
@@ -32,6 +32,10 @@ _MOST_COLUMNS = 100_000
 _HEAD = 200
 _POINT = re.compile(r"(?<!\d)0\.|\.(?!\d{3}(?!\d))|\d{4}\.|\.\d+[eE]")  # that is no mark between thousands
 _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
+
+
+def _number_or_nan(cell: str) -> str:
+    return "nan" if number(cell) is None else cell
 
 
 def _recognises(head: bytes) -> bool:
@@ -73,14 +77,15 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         names = [stated.get(i, "") for i in range(head.width)] if stated else names
         cells = [line.split(delimiter) for line in first]
         clock = _clock(names, cells, list(stated) or list(range(len(names) or 1)))
+        changes: dict[int, Callable[[str], str]] = dict.fromkeys(head.labels, _number_or_nan)
         if clock is not None:
-            rows = with_column(rows, delimiter, clock, CountedSeconds())
+            changes[clock] = CountedSeconds()
             names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
-        for i in head.labels:
-            rows = with_column(rows, delimiter, i, lambda cell: "nan" if number(cell) is None else cell)
         for i, name in enumerate(names):
-            if is_side_column(name) or all(names_a_foot(row[i]) for row in cells if i < len(row)):
-                rows = with_column(rows, delimiter, i, number_of_side)
+            own = [row[i] for row in cells if i < len(row)]
+            if is_side_column(name) or (own and all(map(names_a_foot, own))):
+                changes[i] = number_of_side
+        rows = with_columns(rows, delimiter, changes) if changes else rows
         if head.width > _MOST_COLUMNS:
             raise FormatError(f"a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
         table = table_of_lines(path, rows, delimiter, head.width, warnings, sorted(stated))

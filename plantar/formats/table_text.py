@@ -2,7 +2,7 @@
 
 import csv
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import pairwise
@@ -45,8 +45,8 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
         rows = [x for x in lines[first : first + 2 * _ROWS] if not x.startswith("#")][:_ROWS]
         delimiter = _delimiter(rows)
         labels = _labels(rows, delimiter)
-        for i in labels:
-            rows = list(with_column(iter(rows), delimiter, i, lambda _: "nan"))
+        if labels:
+            rows = list(with_columns(iter(rows), delimiter, dict.fromkeys(labels, lambda _: "nan")))
         width = _width(rows, delimiter, len(cells_of_row(lines[first - 1], delimiter)) if first else 0)
         if width == 1 and first and _numbers(rows[0], "\t"):
             alone = _name_alone(lines[:first])
@@ -309,14 +309,15 @@ def seconds_of_time(text: str) -> float | None:
     return (moment - (_SINCE.replace(tzinfo=UTC) if moment.tzinfo else _SINCE)).total_seconds()
 
 
-def with_column(
-    lines: Iterator[str], delimiter: str | None, column: int, change: Callable[[str], str]
+def with_columns(
+    lines: Iterator[str], delimiter: str | None, changes: Mapping[int, Callable[[str], str]]
 ) -> Iterator[str]:
-    """Yields lines of cells between a delimiter (None: blanks), with those of one column replaced by their change."""
+    """Yields lines of cells between a delimiter (None: blanks), with those of some columns replaced by their change."""
     for line in lines:
         cells = line.split(delimiter)
-        if column < len(cells):
-            cells[column] = change(cells[column])
+        for column, change in changes.items():
+            if column < len(cells):
+                cells[column] = change(cells[column])
         yield (delimiter or " ").join(cells)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from plantar.errors import PlantarError
 from plantar.layouts.layout import SoleLayout
+from plantar.live.arrival import Fault
 from plantar.live.source import LiveSource, LiveStream
 
 _IMPOSSIBLE = "no such address \x00"
@@ -35,7 +36,10 @@ def check_live_source(source: LiveSource, address: str, layout: SoleLayout | Non
     if not isinstance(stream, LiveStream):
         return [*lacks, f"open() returns a {type(stream).__name__}; expected a LiveStream"]
     latest = dict.fromkeys(stream.soles, -np.inf)
-    for side, reading in islice(stream.readings, count):
+    for arrival in islice(stream.readings, count):
+        if arrival is None or isinstance(arrival, Fault):
+            continue
+        side, reading = arrival
         if side not in stream.soles:
             return [*lacks, f"a reading is of {side!r}, of which the stream states no sole"]
         if len(reading.force) != len(stream.soles[side]):

@@ -117,9 +117,16 @@ def _add_leg_contact(spec: Any, robot: Robot) -> None:
     )
 
 
-def _let_legs_touch_ground(spec: Any) -> None:
-    """Let thighs and shanks meet the ground, as a robot that kneels; feet have their soles for that."""
-    feet = [spec.geom(f"{side}_foot_shape").parent.name for side in SIDES]
+def _let_legs_touch_ground(spec: Any, robot: Robot) -> None:
+    """Let thighs and shanks meet the ground, as a robot that kneels; feet and shoes have their soles for that."""
+    feet = {spec.geom(f"{side}_foot_shape").parent.name for side in SIDES}
+    for side in SIDES:
+        link = spec.body(robot.legs[side].foot_body)
+        last = spec.joint(robot.legs[side].joints[-1]).parent.name
+        feet.add(link.name)
+        while link.name != last:  # of several bodies, up to the one that the ankle turns
+            link = link.parent
+            feet.add(link.name)
     for geom in spec.geoms:
         if geom.contype in _LEGS and geom.parent.name not in feet:
             geom.conaffinity |= GROUND_CONTACT
@@ -198,7 +205,7 @@ def build_world(
     for side in SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
     _add_leg_contact(spec, robot)
-    _let_legs_touch_ground(spec)
+    _let_legs_touch_ground(spec, robot)
     soles = _set_contacts(spec, ground.friction)
     for other in others:
         other.add_to(spec)
