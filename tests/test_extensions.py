@@ -114,7 +114,7 @@ def test_an_experiment_of_a_users_package(plugin):
     pytest.importorskip("mujoco")
     (plugin / "h.toml").write_text('description = "pushed"\nexperiment = "hold"\nmachine = "planar-arm"\n')
     held = plantar(plugin, "sim", "h.toml", "--json")
-    assert held.returncode == 0, held.stderr
+    assert held.returncode == 0, held.stderr + held.stdout
     assert 0.0 < json.loads(held.stdout)["moved_m"] < 0.05
     pushed = plantar(plugin, "sim", "h.toml", "--set", "force=50")
     assert pushed.returncode == 1

@@ -9,6 +9,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.errors import SceneError
 from plantar.kernels.judging.joint_extremes import JointExtremes
@@ -57,7 +58,8 @@ class Companion(Run):
         data = self.world.data
         data.qpos[self.world.positions[-len(machine.posture) :]] = machine.posture
         base = int(self.world.model.body_rootid[self.world.model.body(machine.base.link).id])
-        self.outside = OutsideForce(self.world.model, data, base, (self.skin,))
+        self.hands = _Hands(data, self.skin)
+        self.outside = OutsideForce(self.world.model, data, base, (self.skin, self.hands))
         self.joints = JointExtremes(
             data.qvel,
             self.world.joints.astype(np.intp),
@@ -115,6 +117,7 @@ class Companion(Run):
         self.experiment.act(self.world, float(data.time))
         mujoco.mj_step1(self.world.model, data)
         self.skin.apply(data)
+        self.hands.acted()
         self.skin.read(data)  # samples at the skin's own rate, whatever the control period
         if self.lidar is not None and k % self._scan_every == 0:
             self.controller.scan(self.lidar.scan(data))
@@ -144,6 +147,25 @@ class Companion(Run):
             mujoco.mj_step2(self.world.model, data)
             self.outside.step()
             self.joints.step()
+
+
+class _Hands:
+    """What the experiment applies to bodies by `xfrc_applied` in its `act`: it is an actor of the scene."""
+
+    def __init__(self, data: Any, skin: SkinSensor) -> None:
+        self._on_bodies = data.xfrc_applied
+        self._skin = skin
+        self._applied = np.zeros_like(self._on_bodies)
+
+    def acted(self) -> None:
+        """Notes what is applied other than by the skin, before the controller has had its turn."""
+        self._applied[:] = 0.0
+        self._skin.add_applied(self._applied)
+        np.subtract(self._on_bodies, self._applied, out=self._applied)
+
+    def add_applied(self, forces: NDArray[np.float64]) -> None:
+        """Add it to `forces` (bodies, 6)."""
+        forces += self._applied
 
 
 def _misjudge(model: Any, share: float, seed: int) -> None:
