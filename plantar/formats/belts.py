@@ -12,7 +12,8 @@ _OFTEN = 4
 _MIDDLE = (0.15, 0.85)  # Part of a contact in which the CoP is followed: it jumps about in landing and lift-off
 _STRAIGHT = 0.1  # Largest scatter of a carried CoP about a steady motion, as a share of its way
 # Way in m against the push of the foot from which a belt carries it; without a known push, that which no foot rolls.
-_BACKWARD, _FARTHER = 0.05, 0.26
+_BACKWARD = 0.05
+_FARTHER = 0.26
 _PUSHES = 0.02  # Mean change of the horizontal force in a contact, as a share of the vertical, that is a clear push
 _ROLL = 0.22  # Way in m that the CoP of a walking adult goes under the foot from heel to toes, within 0.04 m
 _STEADY_S = 0.25  # Shortest contact in s that shows a belt

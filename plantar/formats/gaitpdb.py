@@ -13,7 +13,8 @@ from plantar.formats.format import Format, ReadOptions
 from plantar.formats.text import head_text, open_text, row_of_numbers, table_of_lines
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 
-_WIDTH, _CELLS = 19, 8
+_WIDTH = 19
+_CELLS = 8
 _ROWS = 20  # Rows that are looked at
 _SAME = 0.02  # N, or as a share, by which sums may differ from the cells': numbers are rounded
 

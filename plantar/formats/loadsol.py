@@ -34,7 +34,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         above = ""
         for line in islice(stream, _HEAD):
             if line.startswith("Time[secs]"):
-                sensors, units = above.rstrip("\n").split("\t"), line.rstrip("\n").split("\t")
+                sensors = above.rstrip("\n").split("\t")
+                units = line.rstrip("\n").split("\t")
                 break
             above = line
         else:

@@ -57,7 +57,8 @@ def checked(recording: PressureRecording) -> PressureRecording:
 
 def _without_impossible(recording: PressureRecording) -> PressureRecording:
     """Recording with values that no sensor gives as NaN, each foot's with a warning."""
-    feet, warnings = dict(recording.feet), list(recording.warnings)
+    feet = dict(recording.feet)
+    warnings = list(recording.warnings)
     for side, foot in recording.feet.items():
         parts = {"force": foot.force, "total": foot.total, "cop": foot.cop, "wrench": foot.wrench}
         changed = {

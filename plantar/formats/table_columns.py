@@ -110,7 +110,8 @@ def recording_of_columns(
 
 def _laid_out(table: NDArray[np.float64], options: ReadOptions, warnings: list[str]) -> list[str]:
     """Names of nameless columns that are as many as a layout's cells, below a clock or not; else FormatError."""
-    width, cells = table.shape[1], 0 if options.layout is None else len(options.layout)
+    width = table.shape[1]
+    cells = 0 if options.layout is None else len(options.layout)
     if not cells or width not in (cells, cells + 1, 2 * cells, 2 * cells + 1):
         raise FormatError(
             "the columns have no names, so that nothing shows which of them are loads; allowed: a row of names, or "

@@ -154,7 +154,8 @@ def _frame_of(read: PressureRecording, feet: Mapping[Side, FootRecording], at: f
     if at is None:
         return int(np.argmax(np.max([np.nan_to_num(foot.vertical_force) for foot in feet.values()], axis=0)))
     time = number(at, "time", finite=True)
-    first, last = float(read.time[0]), float(read.time[-1])
+    first = float(read.time[0])
+    last = float(read.time[-1])
     if not first - 0.5 / read.rate_hz <= time <= last + 0.5 / read.rate_hz:
         raise InputError(f"time is {time:g} s; allowed in {read.path.name}: {first:.3f} to {last:.3f} s")
     return int(np.argmin(np.abs(read.time - time)))

@@ -59,7 +59,8 @@ class ContactMemory:
         """Add a sole's `reading`, dead taxels unloaded, at its estimated `rotation` to world (3, 3), with
         `center_of_pressure` (2,), sole frame, in m.
         """
-        cells, time = self._cells, reading.time
+        cells = self._cells
+        time = reading.time
         if time > self._time:
             self._time = time
             if cells.carry(reading.force, rotation):

@@ -61,7 +61,8 @@ def encoder_offsets(
         for i, side in enumerate(SIDES):
             x, y, z, yaw = feet[side]
             arm = rotation @ places[i]
-            place, turn = slice(6 * i, 6 * i + 3), slice(6 * i + 3, 6 * i + 6)
+            place = slice(6 * i, 6 * i + 3)
+            turn = slice(6 * i + 3, 6 * i + 6)
             rows[place, :k], rows[turn, :k] = -rotation @ moved[i], -rotation @ turned[i]
             rows[place, k : k + 3], rows[place, k + 3 :] = -_cross(arm), np.eye(3)
             rows[turn, k : k + 3] = np.eye(3)
@@ -108,7 +109,8 @@ def _differenced(
     frame.
     """
     count = len(joints)
-    places, turns = np.zeros((count + 1, 2, 3)), np.zeros((count + 1, 2, 3, 3))
+    places = np.zeros((count + 1, 2, 3))
+    turns = np.zeros((count + 1, 2, 3, 3))
     for i in range(count + 1):
         bent = joints.copy()
         if i > 0:

@@ -46,7 +46,8 @@ class FallCheck:
         self._most_off = round(_OFF_FOR / period)
         self._up = Uprightness(period, self._frozen)
         self._load: float | None = None
-        self._same = self._off = 0
+        self._same = 0
+        self._off = 0
         self._carried = False
         self.knows = True
 

@@ -82,7 +82,8 @@ class LegModel:
         self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
         self.rows = np.concatenate([np.arange(6), self._dof]).astype(np.intp)
         self._inertial = np.zeros(model.nv)
-        data, root = self._data, self._root
+        data = self._data
+        root = self._root
         self._motion = MotionLoad(
             (data.qvel, data.qacc),
             self._gravity,

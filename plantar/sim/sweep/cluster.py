@@ -85,7 +85,9 @@ class ClusterWorkers(Workers):
         self._killed = KilledWorker
         self._scheduler = f"the Dask scheduler at {address}"
         self._threads = 0
-        self._asked = self._answered = self._manned = time.monotonic()
+        self._asked = time.monotonic()
+        self._answered = self._asked
+        self._manned = self._asked
 
     def close(self) -> None:
         with suppress(Exception):

@@ -11,7 +11,8 @@ _AXES = ("x", "y", "z")
 
 def signed_permutation(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """Signed permutation (3, 3) nearest to a matrix (3, 3) but for its scale."""
-    best, found = -math.inf, np.eye(3)
+    best = -math.inf
+    found = np.eye(3)
     for order in itertools.permutations(range(3)):
         size = sum(abs(float(matrix[i, order[i]])) for i in range(3))
         if size > best + 1e-9:

@@ -90,12 +90,15 @@ class BringUp:
         self._weight = mass * GRAVITY
         self._period = period
         self._trace = Trace(layouts, len(self._names))
-        self._ticks = self._missed = 0
+        self._ticks = 0
+        self._missed = 0
         self._first: NDArray[np.float64] | None = None
         self._pull = np.zeros(3)
         self._last = stand
         self.findings: tuple[Finding, ...] = ()
-        self.passed = self.ended = self.fell = False
+        self.passed = False
+        self.ended = False
+        self.fell = False
         self.stage = "stands"
 
     @property
@@ -162,7 +165,8 @@ class BringUp:
             self._refuse(found)
             return
         rest = trace["time"] < STOOD
-        left, right = trace["load_left"][rest].mean(), trace["load_right"][rest].mean()
+        left = trace["load_left"][rest].mean()
+        right = trace["load_right"][rest].mean()
         off = float(left / (left + right)) - 0.5
         self._motion.shift(min(_MOST_OFF, max(-_MOST_OFF, off)))
         self.stage = "unloads"
@@ -174,7 +178,8 @@ class BringUp:
         if found:
             self._refuse(found)
             return
-        self.ended = self.passed = True
+        self.ended = True
+        self.passed = True
         self.stage = "passed"
 
     def _refuse(self, findings: Sequence[Finding]) -> None:

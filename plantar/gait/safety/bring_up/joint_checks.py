@@ -25,7 +25,8 @@ Trace = Mapping[str, NDArray[np.float64]]
 def check_joints(trace: Trace, names: Sequence[str], late: int) -> list[Finding]:
     """Findings of encoders that are `late` ticks, with the joints' `names`, by the rows of standing and leaning."""
     rest = trace["time"] < STOOD
-    expected, measured = trace["expected"], trace["joints"]
+    expected = trace["expected"]
+    measured = trace["joints"]
     mean_e = expected[rest].mean(axis=0)
     mean_m = measured[rest].mean(axis=0)
     moved_e = expected[: len(expected) - late] - mean_e

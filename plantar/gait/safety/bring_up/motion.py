@@ -38,7 +38,9 @@ _LEANS = (
 # And of the weight beyond half that the left foot carries
 _SHIFTS = ((3.2, 0), (3.7, 1), (4.0, 1), (4.6, -1), (4.9, -1), (5.3, 0), (5.95, 0))
 _RETURN = (5.2, 5.9)  # in which what the CoM would still be off at the end is taken back
-_ROLL, _YAW, _PITCH = (0.5, 1.2), (1.2, 1.9), (2.0, 2.9)
+_ROLL = (0.5, 1.2)
+_YAW = (1.2, 1.9)
+_PITCH = (2.0, 2.9)
 
 
 class BringUpMotion:
