@@ -55,7 +55,6 @@ while ticks * walker.period < walker.end and not data.warning.number.any():
     mujoco.mj_step(model, data, round(walker.period / model.opt.timestep))
     ticks += 1
 torso = data.body(walker.robot.torso_body)
-diverged = data.warning.number.any()  # MuJoCo then begins again, at time 0
-end = "diverged" if diverged else "fell" if torso.xmat[8] < 0.7 else "stands"
+end = "diverged" if data.warning.number.any() else "fell" if torso.xmat[8] < 0.7 else "stands"
 print(f"walked {torso.xpos[0]:.2f} m and {end}; controller: {walker.state or 'walks'}")
 print(*walker.findings, sep="\n")  # what bring-up found wrong: nothing here

@@ -82,7 +82,7 @@ def test_no_arguments_are_the_help(monkeypatch, capsys):
 
 def test_the_simulators_benchmark_without_the_simulator_is_one_line(monkeypatch, capsys, tmp_path):
     monkeypatch.setitem(sys.modules, "mujoco", None)  # as if it were not installed
-    assert called(monkeypatch, "bench", "contact", "-o", str(tmp_path / "out")) == 2
+    assert called(monkeypatch, "bench", "scenes", "-o", str(tmp_path / "out")) == 2
     said = capsys.readouterr().err
     assert said.startswith("plantar: mujoco is not installed; install it with: pip install 'mujoco>=")
     assert said.count("\n") == 1

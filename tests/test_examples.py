@@ -119,6 +119,7 @@ LONG = {
 
 ELSEWHERE = {
     "insole_walk",  # test_readme.py
+    "live_stream",  # below, in a process of its own
     "introduce_robot",  # sim/survey/test_introduce.py
     "other_plant",  # test_plant_example.py
     "record_to_tables",  # below, on the recording of another one
@@ -151,6 +152,13 @@ def test_a_simulated_example_finds_what_it_says(name):
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert LONG[name].holds(*numbers_in(LONG[name].pattern, done.stdout))
+
+
+def test_a_stream_with_rubbish_goes_on():
+    command = [sys.executable, "-W", "error", "examples/live_stream.py"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"left \d\.\d\d s: \d+ N, CoP .*\{'garbled': \d+", done.stdout, re.DOTALL), done.stdout
 
 
 def test_a_recording_becomes_tables(tmp_path, monkeypatch, capsys):

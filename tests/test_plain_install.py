@@ -143,7 +143,7 @@ COMMANDS = (
     "sweep flat",
     "robot model.xml",
     "robot check robot.toml",
-    *(f"bench {what}" for what in ("kernels", "contact", "scenes", "skip", "stress", "footholds", "all")),
+    *(f"bench {what}" for what in ("kernels", "scenes", "skip", "stress", "footholds", "all")),
     *(f"list {what}" for what in ("", "robots", "scenes", "papers", "papers K", "formats", "sources", "settings")),
     "view run.mcap",
     "analyze walk.asc --json",

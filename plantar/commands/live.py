@@ -15,7 +15,9 @@ def live(
     layout: Annotated[Path | None, Option(help="Sole layout (.json); mirrored for the other foot.")] = None,
     seconds: Annotated[float, Option(help="How long; without it until the source ends, or Ctrl-C.")] = float("inf"),
     kind: Annotated[str | None, Option(help="What measures: robot, insole or platform.")] = None,
-    send: Annotated[list[str] | None, Option(help="Where readings go on to, such as udp:9871; several times.")] = None,
+    send: Annotated[
+        list[str] | None, Option(metavar="SINK", help="Where readings go on to, such as udp:9871; repeatable.")
+    ] = None,
     correct_clocks: Annotated[bool, Option("--correct-clocks", help="Put both soles on the left one's clock.")] = False,
     strict: Annotated[bool, Option("--strict", help="End with exit 2 at what is not a reading in order.")] = False,
     output: Annotated[Path, Option("-o", "--output", help="The recording to write.")] = Path("out/live.mcap"),

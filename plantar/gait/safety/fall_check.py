@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES
 from plantar.gait.command import Sensors
 from plantar.gait.estimate.estimator import Posture
@@ -44,7 +45,7 @@ class FallCheck:
         self._posture = posture
         self._frozen = round(_FROZEN / period)
         self._most_off = round(_OFF_FOR / period)
-        self._up = Uprightness(period, self._frozen)
+        self._up = Uprightness(period, self._frozen, GRAVITY)
         self._load: float | None = None
         self._same = 0
         self._off = 0

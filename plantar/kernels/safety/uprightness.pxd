@@ -1,11 +1,11 @@
 cimport cython
 from ..base cimport pointers as memory
 
-cdef double _SPIN, _LEAST, _MOST, _NEAR_LOW, _NEAR_HIGH, _DRAWN, _ALONE, _GRAVITY
+cdef double _SPIN, _LEAST, _MOST, _NEAR_LOW, _NEAR_HIGH, _DRAWN, _ALONE
 
 @cython.final
 cdef class Uprightness:
-    cdef double period
+    cdef double period, gravity
     cdef int frozen
     cdef bint begun
     cdef double x, y, z, ax, ay, az

@@ -10,7 +10,6 @@ _SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
 _LEAST, _MOST = 2.9, 400.0  # m/s^2: the specific force of a robot that neither drops for long nor is broken
 _NEAR_LOW, _NEAR_HIGH = 6.9, 12.8  # m/s^2: 0.7 and 1.3 of gravity, between which the specific force shows what is up
 _DRAWN, _ALONE = 1.0, 0.2  # s: time constants of the accelerometer beside a gyro, and without one
-_GRAVITY = 9.81
 
 
 class Uprightness:
@@ -21,6 +20,7 @@ class Uprightness:
     Args:
         period: Of control in s.
         frozen: Ticks.
+        gravity: In m/s^2.
 
     Attributes:
         turned: Cosine of the tilt by both.
@@ -28,8 +28,9 @@ class Uprightness:
         turns: Whether the gyro works; `pulls` likewise the accelerometer.
     """
 
-    def __init__(self, period, frozen):
+    def __init__(self, period, frozen, gravity):
         self.period = period
+        self.gravity = gravity
         self.frozen = frozen
         self.begun = False
         self.x = self.y = self.ax = self.ay = 0.0
@@ -77,9 +78,9 @@ class Uprightness:
             self.x, self.y, self.z = x / size, y / size, z / size
             self.ax, self.ay, self.az = self.x, self.y, self.z
         share = min(1.0, self.period / _ALONE)
-        self.ax += share * (x / _GRAVITY - self.ax)
-        self.ay += share * (y / _GRAVITY - self.ay)
-        self.az += share * (z / _GRAVITY - self.az)
+        self.ax += share * (x / self.gravity - self.ax)
+        self.ay += share * (y / self.gravity - self.ay)
+        self.az += share * (z / self.gravity - self.az)
         if _NEAR_LOW < size < _NEAR_HIGH:
             share = min(1.0, self.period / (_DRAWN if turns else _ALONE))
             self.x += share * (x / size - self.x)

@@ -8,7 +8,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.foot.foot_mesh import Link, foot_from_triangles
 from plantar.shoes.foot.orientation import (
     AXES,
     check_level,
@@ -120,7 +120,7 @@ def test_a_links_frame_is_not_turned_where_a_mesh_would_be(prism):
     turned = in_pose(prism(outline, 0.0, 40.0), 0.0, 0.0, 12.0)
     mesh = foot_from_triangles("a", turned, where="a")
     assert any("12.0 degrees past an axis of the mesh, by the symmetry of its sole" in note for note in mesh.notes)
-    link = foot_from_triangles("a", turned, where="a", of_link=True)
+    link = foot_from_triangles("a", turned, where="a", link=Link("a.xml", "foot", np.eye(3)))
     np.testing.assert_allclose(link.triangles.reshape(-1, 3).min(axis=0), turned.reshape(-1, 3).min(axis=0), atol=1e-9)
     assert not any("past an axis" in note for note in link.notes)
 

@@ -44,7 +44,7 @@ def check_imu(trace: Trace) -> tuple[list[Finding], int | None]:
             found.append(Finding(described(gyro, "IMU"), f"it reads {_listed(pull)} m/s^2 at rest", "z up, x forward"))
         else:
             words = f"it reads {_listed(pull)} m/s^2 at rest"
-            found.append(Finding(described(accelerometer, "accelerometer"), words, "(0, 0, 9.81): up, x forward"))
+            found.append(Finding(described(accelerometer, "accelerometer"), words, f"(0, 0, {GRAVITY}): up, x forward"))
     return found, late
 
 
