@@ -18,8 +18,7 @@ from .hostile_files import COMMANDS, DEFECTS_OF_ANY, FAMILIES, Content
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes, devices and memory as on Linux")
 
-# The promise is 5 s on a quiet core; beside other work a core does half as much in a second of a process, or less.
-MOST_SECONDS, MOST_MEGABYTES = 15.0, 500.0
+MOST_SECONDS, MOST_MEGABYTES = 5.0, 500.0
 
 # One process loads the command line, and forks for each command: what that takes is the child's, and its children's.
 _FORKS = """

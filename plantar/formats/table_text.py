@@ -110,9 +110,12 @@ def _width(rows: Sequence[str], delimiter: str | None, named: int) -> int:
 def _is_row(line: str, delimiter: str | None, width: int) -> bool:
     """Whether a line is a row of numbers, some missing or naming a foot."""
     cells = _cells(line, delimiter)
-    known = sum(_is_cell(c) for c in cells)
-    numbers = sum(map(_is_number, cells))
-    return len(cells) >= 0.8 * width and known >= 0.9 * len(cells) and numbers >= max(1, 0.3 * len(cells))
+    if len(cells) < 0.8 * width:
+        return False
+    others = [c for c in cells if not _is_number(c)]
+    numbers = len(cells) - len(others)
+    known = numbers + sum(map(_is_cell, others))
+    return known >= 0.9 * len(cells) and numbers >= max(1, 0.3 * len(cells))
 
 
 def _numbers(line: str, delimiter: str | None) -> bool:
