@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from plantar.common.files.model_files import check_model
+from plantar.common.files.model_limits import spec_of_file
 from plantar.common.sides import SIDES
 from plantar.errors import RobotError
 from plantar.mechanics.lip import GRAVITY
@@ -46,7 +47,7 @@ def _parsed(robot: Robot) -> Any:
     assert robot.model_file is not None
     check_model(robot.model_file, RobotError)  # MuJoCo would follow no matter what it names
     try:
-        spec = mujoco.MjSpec.from_file(str(robot.model_file))
+        spec = spec_of_file(robot.model_file)
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         text = " ".join(str(error).split())
         raise RobotError(f"robot '{robot.name}': model file {robot.model_file} cannot be read: {text}") from None

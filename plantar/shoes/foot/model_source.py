@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.common.files.input_file import check_input
 from plantar.common.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
-from plantar.common.files.model_limits import check_model_size, quiet_mujoco
+from plantar.common.files.model_limits import check_model_size, quiet_mujoco, spec_of_file
 from plantar.common.files.xml_file import XML_MOST
 from plantar.common.optional_library import optional_library
 from plantar.errors import FootError
@@ -74,9 +74,7 @@ class ModelSource:
         with optional_library("mujoco", "sim"):
             mujoco = quiet_mujoco()
         try:
-            spec = (
-                mujoco.MjSpec.from_file(str(self.file)) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)
-            )
+            spec = spec_of_file(self.file) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)
         except Exception as error:  # MuJoCo raises ValueError, OSError and its own
             raise FootError(f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}") from None
         flat = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.common.files.input_file import is_file
 from plantar.common.files.model_files import check_model, named_file
+from plantar.common.files.model_limits import spec_of_file
 from plantar.common.files.structured_text import packaged_files, read_toml
 from plantar.common.settings.schema import Settings, choice, number, tables, text
 from plantar.common.settings.unknown_keys import builtin_or_file, nearest, refuse_other_than_texts, refuse_unknown_keys
@@ -195,7 +196,7 @@ def _parsed(file: Path, where: str) -> Any:
         raise RobotError(f"{where}: model file {file} does not exist")
     check_model(file, RobotError)  # MuJoCo would follow no matter what it names
     try:
-        spec = mujoco.MjSpec.from_file(str(file))
+        spec = spec_of_file(file)
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         raise RobotError(f"{where}: model file {file} cannot be read: {' '.join(str(error).split())}") from None
     spec.compiler.fusestatic = False
