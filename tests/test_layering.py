@@ -94,7 +94,7 @@ PLACE_OF_LIBRARY = {
     "trimesh": ("plantar.shoes", "plantar.common.files.mesh_library"),
     "mujoco": (
         *("plantar.testing.terrain", "plantar.sim", "plantar.robots", "plantar.mujoco"),
-        *("plantar.shoes.foot.model_source", "plantar.common.files.model_limits"),
+        *("plantar.shoes.foot.model_bodies", "plantar.common.files.model_limits"),
     ),
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",

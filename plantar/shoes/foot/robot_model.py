@@ -16,7 +16,7 @@ from plantar.errors import FootError
 from plantar.layouts.source_pose import SourcePose
 from plantar.shoes.foot.foot_mesh import Link, unit_scale
 from plantar.shoes.foot.mesh_file import Unit
-from plantar.shoes.foot.model_source import FARTHEST, BodyPlace, ModelSource, read_model_source
+from plantar.shoes.foot.model_bodies import FARTHEST, BodyPlace, ModelBodies
 from plantar.shoes.geometry.surface import surface_points, thinned
 
 MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")  # file endings of robot models that are read
@@ -82,7 +82,7 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None, unit: Unit | 
     """Gives geometry of a robot foot, drawn or else colliding, with what is fixed to it, from the body of an MJCF or
     URDF at a path, in m or a unit.
     """
-    source = read_model_source(Path(path))
+    source = ModelBodies(Path(path))
     bodies = source.bodies()
     if body is None or body not in bodies:
         what = "name the foot's body (--body)" if body is None else f"there is no body '{body}'"
@@ -134,7 +134,7 @@ def _spelled_as(word: str, example: str) -> str:
     return word.capitalize() if example[0].isupper() else word
 
 
-def _other_foot(source: ModelSource, body: str, bodies: dict[str, BodyPlace], triangles: Array) -> OtherFoot | None:
+def _other_foot(source: ModelBodies, body: str, bodies: dict[str, BodyPlace], triangles: Array) -> OtherFoot | None:
     """The other foot, where the robot is its own mirror image in the zero pose."""
     name = name_of_other(body)
     if name is None or name not in bodies:
@@ -195,7 +195,7 @@ _NEAR = 0.05  # m around the foot
 _SPACING = 0.004  # m between points
 
 
-def swept_points(source: ModelSource, name: str, surface: Array) -> tuple[Array | None, str]:
+def swept_points(source: ModelBodies, name: str, surface: Array) -> tuple[Array | None, str]:
     """Gives points (n, 3) in m, or None, of links above a foot over its last two hinges' range, and a note: source is
     the model, name the foot's body, surface its triangles (k, 3, 3), near which points are kept.
     """

@@ -13,8 +13,8 @@ from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError
 from plantar.sim.survey.leg_chains import Legs, find_legs
-from plantar.sim.survey.model_source import ModelSource, named_note, read_model
 from plantar.sim.survey.sole_frame import Sole, find_sole
+from plantar.sim.survey.stated_model import StatedModel, named_note, read_stated_model
 
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
 NO_SPEED = 1e3  # rad/s: stands for no limit
@@ -32,7 +32,7 @@ class Survey:
     damping in N m s/rad of each leg joint, or empty.
     """
 
-    source: ModelSource
+    source: StatedModel
     legs: Legs
     soles: Mapping[Side, Sole]
     held: Mapping[str, float]
@@ -58,7 +58,7 @@ class Survey:
 
 def survey_model(file: Path, folder: Path) -> Survey:
     """Returns the findings on the robot in `file`; converted meshes go to `folder`."""
-    source = read_model(file, folder)
+    source = read_stated_model(file, folder)
     model = source.model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -131,7 +131,7 @@ def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
     return RobotError("; ".join([f"{file}: {'; '.join([*missing, problem])}", *causes[:3]]))
 
 
-def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
+def _loop_notes(source: StatedModel, legs: Legs) -> list[str]:
     model = source.model
     return [
         f"a leg is a closed chain: '{a}' and '{b}' are tied together apart from its joints; here each joint has "
@@ -141,7 +141,7 @@ def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
     ]
 
 
-def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]:
+def _held(source: StatedModel, legs: Legs) -> tuple[dict[str, float], list[str]]:
     model = source.model
     hinges = {j for leg in legs.by_side.values() for j in leg.joints}
     held = {}
@@ -164,7 +164,7 @@ def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]
     return held, [*([keyframe] if source.upper_posture and held else []), *notes]
 
 
-def _lowest_imu(source: ModelSource, legs: Legs) -> tuple[str, str] | None:
+def _lowest_imu(source: StatedModel, legs: Legs) -> tuple[str, str] | None:
     """The IMU that the fewest joints part from the pelvis: one above the waist turns with it."""
     model = source.model
     usable = [imu for imu in source.imus if _on_body(model, legs, imu)]
@@ -198,7 +198,7 @@ def _lesser(limits: Mapping[str, _Limit], pair: tuple[str, str]) -> _Limit | Non
     return min((limits[name] for name in pair if name in limits), default=None)
 
 
-def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list[str]:
+def _coupled_notes(source: StatedModel, names: Mapping[Side, list[str]]) -> list[str]:
     return [
         f"'{follower}' follows '{leader}' in the model; here each is driven by itself"
         for follower, leader in dict.fromkeys(source.coupled)

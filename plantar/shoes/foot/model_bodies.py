@@ -1,21 +1,16 @@
-"""Robot model through MuJoCo's reader: body shapes, places, mass; only needed parts are compiled."""
+"""Bodies of a robot's model: shapes, places, mass; only needed parts are compiled."""
 
 import math
 import warnings
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
-from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.files.input_file import check_input
-from plantar.common.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
-from plantar.common.files.model_limits import check_model_size, quiet_mujoco, spec_of_file
-from plantar.common.files.xml_file import XML_MOST
-from plantar.common.optional_library import optional_library
+from plantar.common.files.model_source import BELOW, LEAST, read_model_source
 from plantar.errors import FootError
 from plantar.mujoco.deletion import delete_all
 from plantar.mujoco.mesh_surface import mesh_surface
@@ -26,7 +21,6 @@ _LARGEST = 100e6  # bytes of a mesh
 FARTHEST = 1e6  # distance in m beyond which no shape reaches
 
 _UNLIMITED = 0.6  # rad to either side of a joint without limits
-_LEAST = 1e-9  # kg and kg m^2: MuJoCo wants bodies that move to have some
 _READ_BY_MUJOCO = (".stl", ".obj", ".msh")
 _NOT_NEEDED: tuple[str, ...] = (
     *("keys", "sensors", "actuators", "tendons", "equalities", "pairs", "excludes", "tuples", "skins", "flexes"),
@@ -60,23 +54,18 @@ class BodyPlace(NamedTuple):
     rotation: Array
 
 
-@dataclass(frozen=True)
-class ModelSource:
-    """MJCF or URDF file read by MuJoCo. `urdf`: text for MuJoCo; None of an MJCF."""
+class ModelBodies:
+    """Bodies of a robot's model: places, shapes, mass. What is not asked for is not compiled."""
 
-    file: Path
-    urdf: str | None
-    mesh_names: dict[str, str] = field(default_factory=dict)
-    attached: tuple[Path, ...] = ()
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        self._source = read_model_source(file, FootError)
 
-    def spec(self) -> Any:
+    def _spec(self) -> Any:
         """Editable model, without what lacks mass and shape."""
-        with optional_library("mujoco", "sim"):
-            mujoco = quiet_mujoco()
-        try:
-            spec = spec_of_file(self.file) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)
-        except Exception as error:  # MuJoCo raises ValueError, OSError and its own
-            raise FootError(f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}") from None
+        spec = self._source.spec()
+        import mujoco
+
         flat = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
         delete_all(spec, [*(geom for geom in spec.geoms if geom.type in flat), *spec.hfields])
         for material in spec.materials:
@@ -85,13 +74,13 @@ class ModelSource:
             delete_all(spec, getattr(spec, part, ()))
         for compiler in (spec.compiler, *(body.compiler for body in spec.bodies)):
             compiler.balanceinertia = True
-            compiler.boundmass = max(compiler.boundmass, _LEAST)
-            compiler.boundinertia = max(compiler.boundinertia, _LEAST)
+            compiler.boundmass = max(compiler.boundmass, LEAST)
+            compiler.boundinertia = max(compiler.boundinertia, LEAST)
         return spec
 
     def bodies(self) -> dict[str, BodyPlace]:
         """All robot bodies by name."""
-        spec = self.spec()
+        spec = self._spec()
         parts = {body.name: list(_fixed_to(body)) for body in spec.bodies[1:]}
         shaped = {name: any(len(b.geoms) for b in part) for name, part in parts.items()}
         carries = {name: any(child.joints for b in part for child in b.bodies) for name, part in parts.items()}
@@ -125,7 +114,7 @@ class ModelSource:
         problem = ""
         for read_all in (False, True):
             try:
-                spec = self.spec()
+                spec = self._spec()
                 stated = [body for body in spec.bodies if not _weighed_by_shapes(body)]
                 delete_all(spec, [g for body in stated for g in body.geoms if g.meshname])
                 self._give_meshes(spec, read_all)
@@ -136,18 +125,20 @@ class ModelSource:
         if model is None:
             return None, f"the robot's mass is not read: {problem[:120]}"
         body = model.body(name).id
-        while model.body(model.body_parentid[body]).name not in (_WORLD, BELOW):
+        while model.body(model.body_parentid[body]).name not in ("world", BELOW):
             body = int(model.body_parentid[body])
         mass = float(model.body_subtreemass[body])
-        known = stated or self.urdf is None  # of a URDF, what collides weighs as water, and what is drawn nothing
-        if not (known and math.isfinite(mass) and mass > model.nbody * 2.0 * _LEAST):
+        known = (
+            stated or not self._source.is_urdf
+        )  # of a URDF, what collides weighs as water, and what is drawn nothing
+        if not (known and math.isfinite(mass) and mass > model.nbody * 2.0 * LEAST):
             return None, "the robot's model states no mass"
         return mass, f"the robot's mass is {mass:.4g} kg, of its model"
 
     def _shapes(self, name: str, most: int, *, read_all: bool) -> tuple[list[Array], list[Array]]:
         import mujoco
 
-        spec = self.spec()
+        spec = self._spec()
         for geom in spec.geoms:
             geom.group = _ELSEWHERE
         part = [geom for body in _fixed_to(spec.body(name)) for geom in body.geoms]
@@ -186,7 +177,7 @@ class ModelSource:
         """
         import mujoco
 
-        spec = self.spec()
+        spec = self._spec()
         own = {body.name for body in _fixed_to(spec.body(name))}
         kept = {body.name for body in spec.body(name).find_all("body")}
         link = _moving(spec.body(name))
@@ -243,7 +234,7 @@ class ModelSource:
                 continue
             if not mesh.file:
                 continue
-            path = self._path(spec, mesh)
+            path = self._source.mesh_path(spec, mesh)
             kind = path.suffix.lower()
             if kind == ".msh" or (kind in _READ_BY_MUJOCO and not read_all):
                 check_input(path, FootError, _LARGEST)
@@ -253,12 +244,6 @@ class ModelSource:
                 mesh.file = ""
                 mesh.uservert = triangles.ravel()
                 mesh.userface = np.arange(3 * len(triangles), dtype=np.int32)
-
-    def _path(self, spec: Any, mesh: Any) -> Path:
-        if self.urdf is None:
-            return mesh_of_mjcf(self.file, spec, mesh, self.attached, FootError)
-        where = f"{self.file}: <mesh name='{mesh.name}'>"
-        return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
 
     def _placed(self, spec: Any) -> tuple[Any, Any]:
         import mujoco
@@ -274,28 +259,6 @@ class ModelSource:
         data = mujoco.MjData(model)
         mujoco.mj_kinematics(model, data)
         return model, data
-
-
-def read_model_source(file: Path) -> ModelSource:
-    """Robot model, once its outermost element and file names are allowed."""
-    root = parsed_model(file, FootError)
-    check_model_size(root, FootError, str(file))
-    if root.tag == "robot":
-        text, names = urdf_for_mujoco(root)
-        if text is None:
-            raise FootError(f"{file}: holds no link that hangs on none; allowed: a tree of links and joints")
-        return ModelSource(file, text, names)
-    if root.tag != "mujoco":
-        raise FootError(f"{file}: the outermost element is <{root.tag}>; allowed: <mujoco> (MJCF), <robot> (URDF)")
-    check_model(file, FootError)
-    for element in root.iter():
-        for key, text in element.attrib.items():
-            if key not in ("name", "class") and "nan" in text.lower().split():
-                raise FootError(f"{file}: <{element.tag}>: {key} is '{text[:40]}'; allowed: finite numbers")
-    attached = tuple(attached_models(file, root))
-    for path in attached:
-        check_input(path, FootError, XML_MOST)
-    return ModelSource(file, None, attached=attached)
 
 
 def _fixed_to(body: Any) -> Iterator[Any]:
@@ -347,51 +310,3 @@ def _surface(model: Any, geom: int, where: str) -> Array:
         corners, faces = mesh_surface(model, int(model.geom_dataid[geom]))
         return corners[faces]
     return primitive(kind.name.removeprefix("mjGEOM_").lower(), model.geom_size[geom], where)
-
-
-_COMPILER = {"discardvisual": "false", "fusestatic": "false", "strippath": "true"}
-_WORLD = "world"
-
-BELOW = "plantar_world"  # name of the link that is put below the outermost ones: no body of the robot
-
-
-def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, str]]:
-    """URDF text for MuJoCo's reader, None where every link hangs on another; and each mesh's URDF name.
-
-    MuJoCo merges the root link into the world, and meshes of equal file name, and knows no packages. So the root hangs
-    on a link above, and each mesh gets a name.
-
-    Example:
-        >>> link = '<link name="a"><visual><geometry><mesh filename="package://b/c.dae"/></geometry></visual></link>'
-        >>> urdf_for_mujoco(ElementTree.fromstring(f"<robot>{link}</robot>"))[1]
-        {'mesh_0.stl': 'package://b/c.dae'}
-    """
-    names: dict[str, str] = {}
-    for mesh in root.iterfind("link/*/geometry/mesh"):
-        name = f"mesh_{len(names)}.stl"
-        names[name] = mesh.get("filename", "")
-        mesh.set("filename", name)
-    for own in root.findall("mujoco"):
-        root.remove(own)
-    children = {c.get("link", "") for c in root.iterfind("joint/child")}
-    tops = [link.get("name", "") for link in root.findall("link") if link.get("name", "") not in children]
-    if not tops:
-        return None, {}
-    if tops != [_WORLD]:
-        _rename_world(root)
-        root.insert(0, ElementTree.Element("link", {"name": BELOW}))
-        for i, top in enumerate(_WORLD + "_link" if t == _WORLD else t for t in tops):
-            joint = ElementTree.SubElement(root, "joint", {"name": f"{BELOW}_{i}", "type": "fixed"})
-            ElementTree.SubElement(joint, "parent", {"link": BELOW})
-            ElementTree.SubElement(joint, "child", {"link": top})
-    ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _COMPILER)
-    return ElementTree.tostring(root, encoding="unicode"), names
-
-
-def _rename_world(root: ElementTree.Element) -> None:
-    """Rename a link called "world", reserved by MuJoCo."""
-    places = [(e, "name") for e in root.findall("link")]
-    places += [(e, "link") for tag in ("parent", "child") for e in root.iterfind(f"joint/{tag}")]
-    for element, key in places:
-        if element.get(key) == _WORLD:
-            element.set(key, f"{_WORLD}_link")

@@ -12,23 +12,12 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
-from plantar.common.files.model_files import attached_models, check_model, mesh_of_mjcf, mesh_of_urdf, parsed_model
-from plantar.common.files.model_limits import spec_of_file
+from plantar.common.files.model_source import BELOW, ModelSource, read_model_source
 from plantar.errors import RobotError
 from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
 from plantar.sim.survey.body_surface import SHAPES
 from plantar.sim.survey.surface_file import meshes_for_mujoco
-
-# How MuJoCo must read a URDF: with what is drawn, link by link, and with links that have no mass
-_URDF_COMPILER = {
-    "strippath": "false",
-    "discardvisual": "false",
-    "fusestatic": "false",
-    "balanceinertia": "true",
-    "boundmass": "1e-9",
-    "boundinertia": "1e-12",
-}
 
 _COORDINATES = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}  # of a keyframe; other joints have one
 _MOST_TURNED = 20.0  # rad, three turns: hinges of robots have 10 at most, and in degrees a knee or hip has 45 or more
@@ -41,7 +30,7 @@ _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
 @dataclass(frozen=True)
-class ModelSource:
+class StatedModel:
     """A compiled model, and what else its file states.
 
     Attributes:
@@ -78,21 +67,20 @@ class _Stated:
     notes: list[str] = field(default_factory=list)
 
 
-def read_model(file: Path, folder: Path) -> ModelSource:
+def read_stated_model(file: Path, folder: Path) -> StatedModel:
     """Returns a robot's model."""
-    check_model(file, RobotError)
     stated = _Stated()
-    root = parsed_model(file, RobotError)
-    urdf = _urdf_text(root, file, folder, stated) if root.tag == "robot" else ""
-    try:
-        spec = mujoco.MjSpec.from_string(urdf) if urdf else spec_of_file(file)
-    except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
-        raise RobotError(f"{file}: cannot be read: {' '.join(str(error).split())}") from None
+    source = read_model_source(file, RobotError)
+    if source.is_urdf:
+        _read_joints(source.root, file, stated)
+    spec = source.spec()
+    if spec.body(BELOW) is not None:
+        raise RobotError(f"{file}: several links hang on no other; allowed: one, the robot's base")
     _name_all(spec)
     _check_limits(spec, file)
     posture = _first_keyframe(spec)
     _drop_other_things(spec, stated.notes)
-    _drop_unreadable(spec, file, attached_models(file, root), folder, stated.notes)
+    _drop_unreadable(spec, source, folder, stated.notes)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS and e.active]
     stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
     _collect_motors(spec, stated)
@@ -103,10 +91,14 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         warnings.simplefilter("always")
         model = _compiled(spec, file)
     stated.notes += [str(doubt.message) for doubt in doubts]
-    bare = [b.name for b in spec.bodies[1:] if urdf and not b.explicitinertial and model.body(b.name).mass[0] > 1e-3]
+    bare = [
+        b.name
+        for b in spec.bodies[1:]
+        if source.is_urdf and not b.explicitinertial and model.body(b.name).mass[0] > 1e-3
+    ]
     weight = sum(float(model.body(name).mass[0]) for name in bare)
     stated.notes += named_note(f"without an inertial, weighed by their shapes as water: {weight:.3g} kg", bare)
-    return ModelSource(
+    return StatedModel(
         file=file,
         name=spec.modelname if spec.modelname not in ("", "MuJoCo Model") else file.stem,
         model=model,
@@ -122,23 +114,8 @@ def named_note(text: str, names: Sequence[str]) -> list[str]:
     return [f"{text}: {', '.join(names)}"] if names else []
 
 
-def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Stated) -> str:
-    drawn = [
-        (link, shape, mesh, mesh_of_urdf(file, mesh.get("filename", ""), RobotError, f"{file}: <{shape.tag}>"))
-        for link in root.iter("link")
-        for shape in [*link.findall("visual"), *link.findall("collision")]
-        for mesh in shape.findall("geometry/mesh")[:1]
-    ]
-    meshes = meshes_for_mujoco((path for *_, path in drawn), folder, file)
-    for link, shape, mesh, path in drawn:
-        found = meshes[path]
-        if found is None:
-            stated.notes.append(f"{shape.tag} mesh {path.name} of link {link.get('name')} cannot be read; left out")
-            link.remove(shape)
-        else:
-            mesh.set("filename", str(found.resolve()))
-    for own in root.findall("mujoco"):
-        root.remove(own)
+def _read_joints(root: ElementTree.Element, file: Path, stated: _Stated) -> None:
+    """Limits and couplings that a URDF states and MuJoCo leaves out; joints without range are fixed."""
     locked = [name for joint in root.findall("joint") if (name := _locked(joint, file))]
     stated.notes += named_note(
         "held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out)", locked
@@ -153,8 +130,6 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
             value = _number(None if limit is None else limit.get(key))
             if 0.0 < value < math.inf:
                 found_limits[name] = value
-    ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _URDF_COMPILER)
-    return ElementTree.tostring(root, encoding="unicode")
 
 
 def _locked(joint: ElementTree.Element, file: Path) -> str:
@@ -206,7 +181,7 @@ def _joints_below(body: Any) -> list[Any]:
     return [*body.joints, *(joint for child in body.bodies for joint in _joints_below(child))]
 
 
-def _drop_unreadable(spec: Any, file: Path, attached: list[Path], folder: Path, notes: list[str]) -> None:
+def _drop_unreadable(spec: Any, source: ModelSource, folder: Path, notes: list[str]) -> None:
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
     for part in ("textures", "skins", "hfields", "flexes"):
@@ -220,12 +195,12 @@ def _drop_unreadable(spec: Any, file: Path, attached: list[Path], folder: Path, 
     for mesh in list(spec.meshes):  # a hull holds for open surfaces, too, but weighs more
         if mesh.inertia == mujoco.mjtMeshInertia.mjMESH_INERTIA_LEGACY and mesh.name not in weighing:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
-    drawn = [(mesh, mesh_of_mjcf(file, spec, mesh, attached, RobotError)) for mesh in spec.meshes if mesh.file]
-    meshes = meshes_for_mujoco((path for _, path in drawn), folder, file)
+    drawn = [(mesh, source.mesh_path(spec, mesh)) for mesh in spec.meshes if mesh.file]
+    meshes = meshes_for_mujoco((path for _, path in drawn), folder, source.file)
     for mesh, path in drawn:
         found = meshes[path]
         if found is not None:
-            if found != path:
+            if found != path or source.is_urdf:
                 mesh.file = str(found.resolve())
             continue
         users = [g for g in spec.geoms if g.meshname == mesh.name]

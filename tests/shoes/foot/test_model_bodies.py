@@ -10,8 +10,8 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from plantar.shoes.foot import model_source
-from plantar.shoes.foot.model_source import read_model_source
+from plantar.shoes.foot import model_bodies
+from plantar.shoes.foot.model_bodies import ModelBodies
 from plantar.shoes.foot.robot_model import read_foot_body
 from plantar.shoes.foot.source import read_foot
 from plantar.shoes.order import FootSource
@@ -26,7 +26,7 @@ MJCF = """<mujoco><default><geom density="700"/></default><asset><mesh name="m" 
 
 
 def told_mass(file: Path, body: str) -> tuple[float | None, str]:
-    return read_model_source(file).mass(body)
+    return ModelBodies(file).mass(body)
 
 
 def by_mujoco(file: Path, body: str) -> tuple[NDArray[np.float64], float]:
@@ -208,7 +208,7 @@ def test_a_model_of_too_many_triangles_is_read_once(tmp_path, monkeypatch):
     trimesh.creation.icosphere(radius=0.1).export(tmp_path / "m.stl")
     file = tmp_path / "robot.xml"
     file.write_text(MJCF.format(inertial="", mesh='<geom type="mesh" mesh="m"/>'))
-    source = read_model_source(file)
+    source = ModelBodies(file)
     read: list[object] = []
     own = type(source)._shapes
 
@@ -216,7 +216,7 @@ def test_a_model_of_too_many_triangles_is_read_once(tmp_path, monkeypatch):
         read.append(options)
         return own(self, *arguments, **options)
 
-    monkeypatch.setattr(model_source, "MOST_TRIANGLES", 1000)
+    monkeypatch.setattr(model_bodies, "MOST_TRIANGLES", 1000)
     monkeypatch.setattr(type(source), "_shapes", counted)
     with pytest.raises(FootError, match="triangles; allowed: up to 1000"):
         source.shapes("foot", 20)

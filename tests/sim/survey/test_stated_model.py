@@ -10,7 +10,7 @@ import pytest
 
 from plantar import RobotError
 from plantar.sim.survey.body_surface import shapes_of
-from plantar.sim.survey.model_source import read_model
+from plantar.sim.survey.stated_model import read_stated_model
 from plantar.sim.survey.survey import NO_SPEED, survey_model
 
 from .random_biped import random_biped
@@ -52,7 +52,7 @@ def urdf(limit: str, kind: str = "revolute") -> str:
 def test_a_joint_whose_limits_leave_no_range_is_held_and_reported(tmp_path, limit):
     file = tmp_path / "robot.urdf"
     file.write_text(urdf(limit))
-    source = read_model(file, tmp_path)
+    source = read_stated_model(file, tmp_path)
     assert source.model.njnt == 0
     assert any(note.startswith("held, as their limits leave no range") for note in source.notes)
     with pytest.raises(RobotError, match=r"no chain of 4 hinges.*; held, as their limits leave no range.*: elbow"):
@@ -64,7 +64,7 @@ def test_a_joint_with_a_range_or_without_limits_turns(tmp_path, most):
     file = tmp_path / "robot.urdf"
     limit = f'<limit lower="-{most}" upper="{most}" effort="5"/>' if most else ""
     file.write_text(urdf(limit, "revolute" if limit else "continuous"))
-    source = read_model(file, tmp_path)
+    source = read_stated_model(file, tmp_path)
     assert source.model.njnt == 1
     assert bool(source.model.jnt_limited[0]) == bool(limit)
 
@@ -82,7 +82,7 @@ def test_limits_that_contradict_each_other_or_are_in_degrees_are_refused(tmp_pat
     file = tmp_path / "robot.urdf"
     file.write_text(urdf(f'<limit lower="{lower}" upper="{upper}"/>'))
     with pytest.raises(RobotError, match=f"joint 'elbow' has limits from {lower} to {upper}.*{words}"):
-        read_model(file, tmp_path)
+        read_stated_model(file, tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -99,7 +99,7 @@ def test_swapped_limits_which_mujoco_ignores_are_refused(tmp_path, joint, motor,
     body = f"<body><joint name='a' {joint}/><geom size='.1'/></body>"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator><motor joint='a' {motor}/></actuator></mujoco>")
     with pytest.raises(RobotError, match=words):
-        read_model(file, tmp_path)
+        read_stated_model(file, tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -113,7 +113,7 @@ def test_what_is_called_an_imu_is_one(tmp_path, name, imu):
     file = tmp_path / "named.xml"
     body = f"<body name='b'><site name='{name}'/><geom size='.1'/></body>"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
-    assert read_model(file, tmp_path).imus == ((("site", name),) if imu else ())
+    assert read_stated_model(file, tmp_path).imus == ((("site", name),) if imu else ())
 
 
 def test_a_joint_that_follows_another_is_reported_once(tmp_path):
@@ -136,7 +136,8 @@ def test_links_of_a_urdf_that_are_weighed_by_their_shapes_are_named(tmp_path):
         </link><joint name="j" type="fixed"><parent link="arm"/><child link="toe"/></joint></robot>""",
         )
     )
-    assert read_model(file, tmp_path).notes == ["without an inertial, weighed by their shapes as water: 1 kg: toe"]
+    notes = read_stated_model(file, tmp_path).notes
+    assert notes == ["without an inertial, weighed by their shapes as water: 1 kg: toe"]
 
 
 @pytest.mark.parametrize(
@@ -197,7 +198,7 @@ def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(
     file = tmp_path / "marked.xml"
     open_box = 'name="open" inertia="shell" vertex="0 0 0 .1 0 0 0 .1 0 0 0 .1" face="0 1 2 0 1 3"'
     file.write_text(f"<mujoco><asset><mesh {open_box}/></asset><worldbody>{MARKED}</worldbody></mujoco>")
-    source = read_model(file, tmp_path)
+    source = read_stated_model(file, tmp_path)
     assert any("1 shapes without a size" in note for note in source.notes)
     body = source.model.body("marked").id
     drawn, colliding = shapes_of(source.model, (body,))
@@ -221,7 +222,7 @@ def test_gains_of_position_servos_are_read(tmp_path, motors, gains):
     file = tmp_path / "servo.xml"
     body = "<body><joint name='a'/><geom size='.1'/></body>"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator>{motors}</actuator></mujoco>")
-    assert read_model(file, tmp_path).gains == {"a": gains}
+    assert read_stated_model(file, tmp_path).gains == {"a": gains}
 
 
 @pytest.mark.parametrize(
@@ -243,7 +244,7 @@ def test_torque_limits_are_those_of_joint_and_motor(tmp_path, motor, effort):
     body = "<body><joint name='a' actuatorfrcrange='-90 110'/><geom size='.1'/></body>"
     tendon = "<tendon><fixed name='t' actuatorfrcrange='-7000 5000'><joint joint='a' coef='-.01'/></fixed></tendon>"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody>{tendon}<actuator>{motor}</actuator></mujoco>")
-    assert read_model(file, tmp_path).efforts == {"a": min(effort, 90.0)}
+    assert read_stated_model(file, tmp_path).efforts == {"a": min(effort, 90.0)}
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -270,7 +271,7 @@ def test_torque_limits_of_several_motors_are_what_mujoco_lets_them_reach(tmp_pat
         mujoco.mj_forward(model, data)
         reached.append(float(data.qfrc_actuator[0]))
     one_way = max(reached) <= 0.0 or min(reached) >= 0.0
-    found = read_model(file, tmp_path)
+    found = read_stated_model(file, tmp_path)
     limit = max(map(abs, reached)) if one_way else min(max(reached), -min(reached))
     assert found.efforts["a"] == pytest.approx(limit)
     assert any("push one way only" in note for note in found.notes) == one_way
@@ -282,7 +283,7 @@ def test_what_a_motor_on_a_tendon_and_gravity_compensation_were_is_said(tmp_path
     motor = "<actuator><position tendon='t' kp='9'/></actuator>"
     file = tmp_path / "tendon.xml"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody>{tendon}{motor}</mujoco>")
-    found = read_model(file, tmp_path)
+    found = read_stated_model(file, tmp_path)
     assert "servos on tendons are replaced by one a joint: a" in found.notes
     assert "gravity compensation is left out: b" in found.notes
     assert found.gains == {}
@@ -294,7 +295,7 @@ def test_what_mujoco_warns_of_is_a_note(tmp_path):
     file.write_text(f"<mujoco><compiler settotalmass='30'/><worldbody>{body}</worldbody></mujoco>")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = read_model(file, tmp_path)
+        found = read_stated_model(file, tmp_path)
     assert mujoco.mj_getTotalmass(found.model) == pytest.approx(30.0)
     assert any("settotalmass" in note for note in found.notes)
 
@@ -303,11 +304,11 @@ def test_what_mujoco_warns_of_is_a_note(tmp_path):
 def test_speed_limits_and_gains_are_those_of_each_joint_on_the_weaker_side(tmp_path, monkeypatch, odd):
     truth = random_biped(10, tmp_path)
     left, right = truth.joints["left"], truth.joints["right"]
-    source = read_model(truth.file, tmp_path)
+    source = read_stated_model(truth.file, tmp_path)
     speeds = dict.fromkeys((*left, *right), 9.0) | {left[2]: 4.0, left[-1]: odd, right[-1]: odd}
     gains = dict.fromkeys(left, (900.0, 9.0)) | dict.fromkeys(right, (300.0, 30.0))
     stated = replace(source, speeds={k: v for k, v in speeds.items() if v > 0.0}, gains=gains)
-    monkeypatch.setattr("plantar.sim.survey.survey.read_model", lambda *_: stated)
+    monkeypatch.setattr("plantar.sim.survey.survey.read_stated_model", lambda *_: stated)
     found = survey_model(truth.file, tmp_path)
     assert found.speeds == (9.0, 9.0, 4.0, *(9.0,) * (len(left) - 4), NO_SPEED)
     assert found.gains == ((300.0, 30.0),) * len(left)
@@ -325,7 +326,7 @@ def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
     body = "<body><joint/><geom type='mesh' mesh='two'/></body>"
     head = "<compiler strippath='true'/><asset><mesh name='two' file='cad/two.obj'/></asset>"
     file.write_text(f"<mujoco>{head}<worldbody>{body}</worldbody></mujoco>")
-    mass = mujoco.mj_getTotalmass(read_model(file, tmp_path).model)
+    mass = mujoco.mj_getTotalmass(read_stated_model(file, tmp_path).model)
     assert mass == pytest.approx(mujoco.mj_getTotalmass(mujoco.MjModel.from_xml_path(str(file))))
 
 
@@ -340,7 +341,7 @@ def test_an_attached_model_keeps_its_own_angles_and_folder_of_meshes(tmp_path):
     attached = "<asset><model name='r' file='robot/r.xml'/></asset><worldbody><attach model='r' body='b' prefix='c_'/>"
     file = tmp_path / "scene.xml"
     file.write_text(f"<mujoco><compiler angle='radian'/>{attached}</worldbody></mujoco>")
-    source = read_model(file, tmp_path)
+    source = read_stated_model(file, tmp_path)
     assert source.notes == []
     assert source.model.nmesh == 1
     np.testing.assert_allclose(source.model.jnt_range[0], [-0.5 * np.pi, 0.5 * np.pi])
