@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,6 +44,14 @@ SLOW = ("tests/sim/", "tests/shoes/", "tests/test_", "tests/gait/analysis/", "te
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Slow files first, so that no worker is left with one of them at the end while the others have nothing to do."""
     items.sort(key=lambda item: not item.path.relative_to(config.rootpath).as_posix().startswith(SLOW))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Of `--dist loadfile`, one that goes on when a worker dies."""
+    if config.getvalue("dist") != "loadfile":
+        return None
+    return import_module(".scheduler", __package__).FilesAtOnce(config, log)
 
 
 @pytest.fixture(autouse=True)
