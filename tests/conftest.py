@@ -5,9 +5,11 @@ import os
 # Before numpy loads: threads of one small solve wait for each other, ten times as long beside another worker.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import hashlib
 import re
 import signal
 import time
+from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -37,12 +39,36 @@ if kernels.problem and kernels.problem != "none of them is compiled":
 for kernel in kernels.KERNELS:
     import_module(f"plantar.kernels.{kernel}")
 
+DRAW = os.environ.get("PLANTAR_TEST_DRAW", "0")
+"""Which cases and seeds are drawn: with any other text another set, which has to pass as well."""
+
+
+def beyond_sample(items: list[pytest.Item]) -> list[pytest.Item]:
+    """Cases that the draw leaves to the long tests: of a test marked `sample(5)` all but five.
+
+    `sample(1, each="robot")` draws one for each value of that argument. The draw is by the case's name: the same each
+    time, and one more case changes at most one of those drawn.
+    """
+    cases = defaultdict(list)
+    for item in items:
+        if mark := item.get_closest_marker("sample"):
+            value = repr(item.callspec.params[mark.kwargs["each"]]) if "each" in mark.kwargs else ""
+            cases[item.nodeid.partition("[")[0], value, mark.args[0]].append(item)
+    for (*_, count), found in cases.items():
+        found.sort(key=lambda item: hashlib.sha256(f"{item.nodeid} {DRAW}".encode()).digest())
+        del found[:count]
+    return [item for found in cases.values() for item in found]
+
+
 SLOW = ("tests/sim/", "tests/shoes/", "tests/test_", "tests/gait/analysis/", "tests/plantar/formats/")
 """Where files lie of which some take half a minute: they simulate, build solids, or start processes."""
 
 
+@pytest.hookimpl(tryfirst=True)  # before `-m "not long"` takes the long ones away
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Slow files first, so that no worker is left with one of them at the end while the others have nothing to do."""
+    """Cases beyond the drawn ones are long; slow files come first, so that the workers end together."""
+    for item in beyond_sample(items):
+        item.add_marker(pytest.mark.long)
     items.sort(key=lambda item: not item.path.relative_to(config.rootpath).as_posix().startswith(SLOW))
 
 

@@ -41,34 +41,43 @@ def undocumented_constants(path: Path) -> list[str]:
     return missing
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_what_a_module_offers_is_explained(name):
+def unexplained(name: str, path: Path) -> list[str]:
+    """What a module offers without a word, twice, or in a list alone."""
     module = importlib.import_module(name)
-    path = FILES[MODULES.index(name)]
-    assert (module.__doc__ or "").strip(), f"{name} has no docstring"
+    faults = [] if (module.__doc__ or "").strip() else ["a docstring is missing"]
     if path.name == "__init__.py" and not hasattr(module, "__all__"):
         tree = ast.parse(path.read_text(encoding="utf-8"))
-        assert not [n for n in tree.body if not isinstance(n, ast.Expr)], f"{name} holds code but no __all__"
-        return
+        code = [n for n in tree.body if not isinstance(n, ast.Expr)]
+        return faults + (["code but no __all__"] if code else [])
     exported = public_names(module)
-    assert len(set(exported)) == len(exported)
-    assert [n for n in exported if not hasattr(module, n)] == []
+    faults += ["a name is there twice"] if len(set(exported)) < len(exported) else []
     for n in exported:
-        value = getattr(module, n)
-        if inspect.isclass(value) or inspect.isfunction(value):
-            assert (inspect.getdoc(value) or "").strip(), f"{name}.{n} has no docstring"
-    assert undocumented_constants(path) == []
+        value = getattr(module, n, module)
+        named = inspect.isclass(value) or inspect.isfunction(value)
+        faults += [f"{n} is not there"] if value is module else []
+        faults += [f"{n} has no docstring"] if named and not (inspect.getdoc(value) or "").strip() else []
+    return faults + [f"{n} is not explained" for n in undocumented_constants(path)]
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_a_list_of_exports_holds_each_public_definition_and_names_of_others(name):
-    """What a module defines without an underscore is for others; `__all__` is for names that it passes on."""
-    path = FILES[MODULES.index(name)]
+def test_what_a_module_offers_is_explained():
+    told = {name: faults for name, path in zip(MODULES, FILES, strict=True) if (faults := unexplained(name, path))}
+    assert told == {}
+
+
+def wrongly_listed(name: str, path: Path) -> bool:
+    """Whether a list of exports lacks a public definition, or has no name of another module."""
     listed = getattr(importlib.import_module(name), "__all__", None)
-    if listed is not None:
-        defined = defined_names(path)
-        assert {n for n, node in defined.items() if not isinstance(node, ast.Assign)} <= set(listed)
-        assert path.name == "__init__.py" or "kernels" in path.parts or set(listed) - set(defined)
+    if listed is None:
+        return False
+    defined = defined_names(path)
+    lacks = {n for n, node in defined.items() if not isinstance(node, ast.Assign)} - set(listed)
+    passes_on = path.name == "__init__.py" or "kernels" in path.parts or bool(set(listed) - set(defined))
+    return bool(lacks) or not passes_on
+
+
+def test_a_list_of_exports_holds_each_public_definition_and_names_of_others():
+    """What a module defines without an underscore is for others; `__all__` is for names that it passes on."""
+    assert [name for name, path in zip(MODULES, FILES, strict=True) if wrongly_listed(name, path)] == []
 
 
 @pytest.mark.parametrize(("package", "others"), [("plantar", {"__version__"}), ("plantar.shoes", set())])
