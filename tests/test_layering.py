@@ -59,7 +59,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("controller_settings", "tick", "controller", "controller_tables"),
     ),
     "plantar.gait.analysis": (
-        *("measures", "options", "subject", "prints", "steps", "summary", "direction", "health", "activity"),
+        *("masks", "measures", "options", "subject", "prints", "steps", "summary", "direction", "health", "activity"),
         *("parameters", "measure_errors", "pages", "metrics", "results", "analyse_one", "compare", "study"),
         *("custom", "c3d_export", "exports", "analyse"),
     ),

@@ -77,17 +77,28 @@ class AnalysisOrder:
     threshold: float | None = _option(
         None, "Force in N at which heel strikes and toe offs lie, by a protocol, instead of those found in the force."
     )
+    masks: str = _option(
+        "seven", "Regions of the foot: seven (automatic), ten (by anatomy), or a file of polygons (JSON, or mask,u,v)."
+    )
     participant: str = _option("", "The person's name, for the report's heading.")
     mass: float | None = _option(None, "Mass of the body in kg: forces are given in percent of its weight.")
     foot_length: float | None = _option(None, "Length of the foot in m, for the report's heading.")
 
     def choices(self) -> Any:
         """The `AnalysisOptions`: which steps and events count."""
+        from plantar.gait.analysis.masks import masks_of
         from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
 
         steps = steps_of_text(self.steps)
         return AnalysisOptions(
-            steps, self.begin, self.end, self.segment, cast(Any, self.baseline), self.events, self.threshold
+            steps,
+            self.begin,
+            self.end,
+            self.segment,
+            cast(Any, self.baseline),
+            self.events,
+            self.threshold,
+            masks_of(self.masks),
         )
 
     def subject(self) -> Any:

@@ -6,7 +6,7 @@ platform of the footprint.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import shapely
@@ -15,12 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.common.plane_points import plane_points
 from plantar.common.sides import Side
 from plantar.errors import InputError
+from plantar.gait.analysis.masks import masks_of_polygons
 from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.pressure_measures import region_measures
+from plantar.gait.analysis.steps.step_footprint import places_in_foot
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads
-
-_FARTHEST = 2.0  # Largest distance of a mask's corner from the middle of the foot, in shares of its length or width
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +71,9 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
     Raises:
         InputError: If a mask is no polygon.
     """
-    rings = {name: _ring(name, corners) for name, corners in masks.items()}
+    checked = {name: plane_points(corners, f"mask {name}").tolist() for name, corners in masks.items()}
+    polygons = masks_of_polygons(checked).polygons
+    rings = {name: shapely.Polygon(ring) for name, ring in zip(masks, polygons, strict=True)}
     out: dict[Side, list[dict[str, dict[str, float]]]] = {}
     for side, gait in analysis.feet.items():
         rows: list[dict[str, dict[str, float]]] = []
@@ -85,16 +87,6 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
             rows.append(row)
         out[side] = rows
     return out
-
-
-def _ring(name: str, corners: ArrayLike) -> shapely.Polygon:
-    ring = plane_points(corners, f"mask {name}")
-    if len(ring) < 3 or np.abs(ring - 0.5).max() > _FARTHEST or not shapely.Polygon(ring).is_valid:
-        raise InputError(
-            f"mask {name} crosses itself, has less than three corners, or some far from a foot; allowed: shares of its "
-            "length and width, from heel (0) to toes (1) and from lateral (0) to medial (1)"
-        )
-    return shapely.Polygon(ring)
 
 
 def _views(analysis: Analysis, gait: FootGait) -> Sequence[StepView]:
@@ -118,6 +110,4 @@ def _places(analysis: Analysis, gait: FootGait, step: Step | None) -> NDArray[np
     print_ = step.footprint if step is not None and analysis.recording.kind == "platform" else gait.sole
     if print_ is None:
         return None
-    low = print_.rings.reshape(-1, 2).min(axis=0)
-    high = print_.rings.reshape(-1, 2).max(axis=0)
-    return cast(NDArray[np.float64], (print_.in_foot(layout.positions[:, :2]) - low) / (high - low))
+    return places_in_foot(layout, print_)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, cast
 
 from plantar.errors import InputError
+from plantar.gait.analysis.masks import SEVEN_MASKS, Masks
 
 ACTIVITIES = ("walking", "running", "hopping")
 """Activities of steps that segments are of."""
@@ -22,7 +23,7 @@ class AnalysisOptions:
     `segment`: activity in the means, such as "walking"; the one with most steps where None; `baseline`: "auto" removes
     swing readings that are an offset; "keep" leaves them; `events`: "own" finds events in the force; "vendor" uses
     those stored in the file; else the path of an events file (see `plantar.formats.stated_events`); `threshold`: force
-    in N whose crossings are the events, as a protocol may state.
+    in N whose crossings are the events, as a protocol may state; `masks`: regions that are measured.
     """
 
     steps: tuple[int, int] | Literal["steady", "all"] = "steady"
@@ -32,6 +33,7 @@ class AnalysisOptions:
     baseline: Literal["auto", "keep"] = "auto"
     events: str = "own"
     threshold: float | None = None
+    masks: Masks = SEVEN_MASKS
 
     def __post_init__(self) -> None:
         if self.threshold is not None and not 0.0 < self.threshold < _HIGHEST:

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from plantar.common.sides import Side, other_side
 from plantar.errors import InputError
 from plantar.gait.analysis.health import unequal_strides
+from plantar.gait.analysis.masks import SEVEN_MASKS, Masks
 from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.prints.platform import PlatformPrint
 from plantar.gait.analysis.prints.platform_walk import PAUSE
-from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.cop_path import averaged_path
 from plantar.gait.analysis.steps.events import (
@@ -32,7 +33,12 @@ from plantar.gait.analysis.steps.pressure_measures import pressure_measures, reg
 from plantar.gait.analysis.steps.segments import most_common, with_activities, without_standing
 from plantar.gait.analysis.steps.stated import stated_contacts
 from plantar.gait.analysis.steps.steady import in_one_window, with_used_steps
-from plantar.gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
+from plantar.gait.analysis.steps.step_footprint import (
+    cells_in_polygons,
+    footprint_of_step,
+    print_of_contact,
+    with_picture,
+)
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
 from plantar.gait.analysis.steps.step_measures import step_measures
 from plantar.gait.analysis.steps.step_times import OtherFoot, longest_strides, stride_times, time_measures
@@ -74,7 +80,8 @@ def analyse_feet(
     known = options or AnalysisOptions()
     if known.events != "own":
         _check_stated(recording)
-    feet = with_activities(_out_of_time(_measured_feet(recording, prints, known.events != "own", known.threshold)))
+    measured = _measured_feet(recording, prints, known.events != "own", known.threshold, known.masks)
+    feet = with_activities(_out_of_time(measured))
     names = [step.activity for gait in feet.values() for step in gait.steps if step.activity]
     chosen = known.segment or (most_common(names) if known.steps == "steady" else "")
     if known.segment is not None and known.segment not in names:
@@ -135,13 +142,17 @@ def _check_stated(recording: PressureRecording) -> None:
 
 
 def _measured_feet(
-    recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool, threshold: float | None
+    recording: PressureRecording,
+    prints: Sequence[PlatformPrint],
+    stated: bool,
+    threshold: float | None,
+    masks: Masks,
 ) -> dict[Side, FootGait]:
     found = {side: _events_of(recording, side, stated, threshold) for side in recording.feet}
     brushes = {side: own for side in found if not stated and (own := _brushes(recording, side, found))}
     found = {s: (levels, [c for c in own if c not in brushes.get(s, ())]) for s, (levels, own) in found.items()}
     events = _by_passes(recording, prints, found)
-    feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
+    feet = {side: analyse_foot(recording, side, prints, stated, events, masks) for side in recording.feet}
     for side, own in brushes.items():
         note = (
             f"the {side} foot touches the ground lightly {len(own)} time(s) while the other one stands, first at "
@@ -220,13 +231,15 @@ def analyse_foot(
     prints: Sequence[PlatformPrint] = (),
     stated: bool = False,
     events: _Events | None = None,
+    masks: Masks = SEVEN_MASKS,
 ) -> FootGait:
     """Returns gait of a side's foot of a recording; measures of both feet use the other's contacts.
 
-    Platform footprints are in prints; events are both feet's levels and contacts, or those stated in the file.
+    Platform footprints are in prints; events are both feet's levels and contacts, or those stated in the file; masks
+    are the regions that are measured.
     """
     events = events or {s: _events_of(recording, s, stated) for s in recording.feet}
-    gait = _with_events(recording, side, *events[side])
+    gait = replace(_with_events(recording, side, *events[side]), masks=masks)
     loads = StepLoads(recording, gait.foot, gait.cell_threshold)
     gait = with_picture(recording, gait, loads)
     others = _other_foot(recording, side, events)
@@ -240,7 +253,9 @@ def analyse_foot(
     for group in [[c] for c in complete] if platform else loads.blocks(complete):
         load = loads.of(*group)
         print_, region = footprint_of_step(recording, gait, loads, group[0], prints)
-        regions = _regions(load, region, [cast(float, c.toe_off) - cast(float, c.heel_strike) for c in group])
+        regions = _regions(
+            gait, load, region, print_, [cast(float, c.toe_off) - cast(float, c.heel_strike) for c in group]
+        )
         pressures = [{}] * len(group) if load.pressure is None else pressure_measures(load, gait.foot.layout)
         for contact, pressure, own in zip(group, pressures, regions, strict=True):
             times = time_measures(contact, before[id(contact)], next(strides), next(longest), others)
@@ -308,11 +323,23 @@ def _levels(recording: PressureRecording, side: Side) -> Levels | None:
 
 
 def _regions(
-    load: StepLoad, region: NDArray[np.int64] | None, lasts: Sequence[float]
+    gait: FootGait,
+    load: StepLoad,
+    region: NDArray[np.int64] | None,
+    print_: Footprint | None,
+    lasts: Sequence[float],
 ) -> list[dict[str, dict[str, float]]]:
     if region is None or load.pressure is None:
         return [{} for _ in lasts]
-    return region_measures(load, region, list(REGIONS), lasts)
+    names = [name for name, _ in gait.masks.names]
+    whole = gait.sole or print_
+    if gait.masks.kind != "polygons" or whole is None or gait.foot.layout is None:
+        return region_measures(load, region, names, lasts)
+    out: list[dict[str, dict[str, float]]] = [{} for _ in lasts]
+    for name, inside in zip(names, cells_in_polygons(gait.masks, gait.foot.layout, whole), strict=True):
+        for row, own in zip(out, region_measures(load, np.where(inside, 0, -1), [name], lasts), strict=True):
+            row.update(own)
+    return out
 
 
 def _place(

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES
-from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.layouts.layout import Side
 
@@ -68,7 +67,7 @@ def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
 def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
     """Each measure of each region over used steps; missing regions left out."""
     out: dict[str, dict[str, Spread]] = {}
-    for region in REGIONS:
+    for region, _ in gait.masks.names:
         rows = [step.regions[region] for step in gait.used if region in step.regions]
         if rows:
             out[region] = {name: spread([row.get(name, np.nan) for row in rows]) for name in REGION_MEASURES}

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import Side
 from plantar.formats.recorded_layouts import subset
+from plantar.gait.analysis.masks import Masks
 from plantar.gait.analysis.prints.footprint import Footprint
-from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.layouts.layout import SoleLayout
@@ -23,7 +23,10 @@ _FORWARD = "forward (mm)"
 _RIGHT = "to the right (mm)"
 _STANCE = np.linspace(0.0, 1.0, 51)  # Shares of the stance at which paths are averaged
 # Colours of the regions: Tol's bright scheme, which colour-blind readers distinguish.
-REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb")
+REGION_COLOURS = (
+    *("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb"),
+    *("#332288", "#ddaa33", "#99ddff"),
+)
 
 
 class _Cells(NamedTuple):
@@ -152,11 +155,12 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
     figure, axes = _panels(shown, 1.8)
     for panel, (side, own) in zip(axes[0], drawn.items(), strict=True):
         layout, chosen = shown[side]
-        draw_classes(panel, layout, own.region[chosen], REGION_COLOURS)
+        draw_classes(panel, layout, own.region[chosen], _colours(own.gait.masks))
         draw_lines(panel, own.print_, axis=axis_is_inside(own.print_), color="#111111", label="foot axis")
         panel.set(title=f"{side} foot", xlabel=_RIGHT)
     axes[0][0].set_ylabel(_FORWARD)
-    _list_regions(axes[0][-1], {int(i) for own in drawn.values() for i in own.region})
+    masks = next(iter(drawn.values())).gait.masks
+    _list_regions(axes[0][-1], masks, {int(i) for own in drawn.values() for i in own.region})
     _legend(figure, axes[0], "outside right center")
     return figure
 
@@ -188,8 +192,12 @@ def axis_is_inside(print_: Footprint) -> bool:
     return all(signed_margin(hull, np.array([u, 0.0])) >= -0.05 * print_.width for u in places)
 
 
-def _list_regions(panel: Any, used: set[int]) -> None:
-    for i, (colour, title) in enumerate(zip(REGION_COLOURS, REGIONS.values(), strict=True)):
+def _colours(masks: Masks) -> list[str]:
+    return [REGION_COLOURS[i % len(REGION_COLOURS)] for i in range(len(masks.names))]
+
+
+def _list_regions(panel: Any, masks: Masks, used: set[int]) -> None:
+    for i, (colour, title) in enumerate(zip(_colours(masks), masks.titles.values(), strict=True)):
         if i in used:
             panel.plot([], [], "s", color=colour, label=title)
     panel.plot([], [], ":", color="#111111", label="thirds without toes")

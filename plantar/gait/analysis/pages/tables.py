@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 from plantar.common.gravity import GRAVITY
 from plantar.common.pages.page import group_row, number, row, scaled, table, titled
+from plantar.gait.analysis.masks import SEVEN, TEN
 from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, full_title, raw_name
-from plantar.gait.analysis.prints.regions import REGIONS
 
 EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
 """Measures that are shown of each step."""
@@ -133,11 +133,16 @@ def regions_tables(metrics: Mapping[str, Any]) -> str:
     head = ["Region", *(title for _, title, _ in shown)]
     out = ""
     for side, foot in metrics["feet"].items():
-        held = {title: foot["regions"][region] for region, title in REGIONS.items() if region in foot["regions"]}
+        held = {html.escape(_region_title(region)): own for region, own in foot["regions"].items()}
         means = {t: [scaled(own.get(s.key, {}).get("mean"), s.factor) for s in shown] for t, own in held.items()}
         if rows := [row(title, [*map(number, values)]) for title, values in means.items()]:
             out += table(f"Regions of the {side} foot", f"The {side} foot, means over its complete steps.", head, rows)
     return out
+
+
+def _region_title(region: str) -> str:
+    known = dict(SEVEN) | dict(TEN)
+    return known.get(region, region.replace("_", " ").capitalize())
 
 
 def comparison_table(comparison: Mapping[str, Any]) -> str:

@@ -11,23 +11,21 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.analysis.masks import SEVEN, TEN
 from plantar.gait.analysis.prints.footprint import Footprint
 
-REGIONS: Mapping[str, str] = {
-    "heel": "Heel",
-    "midfoot": "Midfoot",
-    "forefoot_medial": "Forefoot, medial",
-    "forefoot_central": "Forefoot, central",
-    "forefoot_lateral": "Forefoot, lateral",
-    "hallux": "Hallux",
-    "toes": "Toes 2 to 5",
-}
+REGIONS: Mapping[str, str] = dict(SEVEN)
 """Names of the regions, from heel to toes, with their titles."""
 
 _STRIPS = 4
 _DEPTH = 0.6  # A valley in front of the forefoot is no more than this share of the lower one of the peaks next to it
 _TOE_PEAK = 0.08  # Toes carry at least this share of the forefoot's peak pressure
 _HALLUX = 0.40  # Share of the width of the toes, from the medial side, that is the hallux
+# Shares of the length with toes at which heel and midfoot end, and of the forefoot's width from the medial edge at
+# which the metatarsals meet: those of novel's automatic mask, as the R package pressuRe (0.2.7) draws it.
+_HEEL_ENDS = 0.27
+_MIDFOOT_ENDS = 0.55
+_METATARSALS = (0.30, 0.47, 0.64, 0.81)
 _TOES_OF_SOLE = 0.82  # Share of an insole's length at which its toe region begins where the pressure shows no valley
 
 
@@ -124,4 +122,34 @@ def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.in
             high = float(print_.rings[cells][:, :, 1].max())
             index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
             out[cells] = np.array([list(REGIONS).index(name) for name in names])[index]
+    return out
+
+
+def ten_regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.int64]:
+    """Returns index (n,) into `TEN` of each cell of a footprint; arguments as of `regions_of`.
+
+    The heel is halved at the middle of its width.
+    """
+    u, v = print_.centres.T
+    toe = print_.is_toe
+    if print_.toe_line is None and of_sole is not None:
+        toe = u > _TOES_OF_SOLE * of_sole
+    names = [name for name, _ in TEN]
+    length = print_.length
+    heel = (u <= _HEEL_ENDS * length) & ~toe
+    out = np.full(len(u), names.index("midfoot"))
+    for cells, first, shares in (
+        (heel, ("heel_lateral", "heel_medial"), (0.5,)),
+        (
+            (u > _MIDFOOT_ENDS * length) & ~toe,
+            tuple(f"metatarsal_{n}" for n in (5, 4, 3, 2, 1)),
+            tuple(1.0 - share for share in reversed(_METATARSALS)),
+        ),
+        (toe, ("toes", "hallux"), (1.0 - _HALLUX,)),
+    ):
+        if cells.any():
+            low = float(print_.rings[cells][:, :, 1].min())
+            high = float(print_.rings[cells][:, :, 1].max())
+            index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
+            out[cells] = np.array([names.index(name) for name in first])[index]
     return out

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import Side
+from plantar.gait.analysis.masks import SEVEN_MASKS, Masks
 from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.steps.events import Contact, Levels
 from plantar.recordings.pressure_recording import FootRecording
@@ -24,7 +25,7 @@ class Step:
         toe_off_s: In s.
         measures: Known ones by key in `plantar.gait.analysis.measures.MEASURES`.
         footprint: Of lengths, arch index and regions.
-        region: Index (k,) into `REGIONS` of each cell, -1 for none.
+        region: Index (k,) into the regions' names of each cell, -1 for none; of overlapping masks the first.
         unused: Why not, or empty.
         odd: Why odd, or empty.
         activity: "walking", "running", "hopping" or empty.
@@ -59,7 +60,8 @@ class FootGait:
         cell_threshold: Cells count as loaded above this force (k,) in N.
         picture: Maximum pressure picture (k,) in Pa: mean over steps, of platforms the largest.
         footprint: Of that picture in an insole or sole.
-        region: Index (k,) into `REGIONS` of each picture cell, -1 for none.
+        region: Index (k,) into the regions' names of each picture cell, -1 for none.
+        masks: Regions that are measured.
         sole: Whole insole or sole as footprint.
     """
 
@@ -74,6 +76,7 @@ class FootGait:
     region: NDArray[np.int64] | None = None
     sole: Footprint | None = None
     warnings: tuple[str, ...] = ()
+    masks: Masks = SEVEN_MASKS
 
     @property
     def heel_strikes(self) -> list[float]:

@@ -4,15 +4,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.common.sides import Side
+from plantar.gait.analysis.masks import Masks
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_cells
 from plantar.gait.analysis.prints.platform import PlatformPrint
-from plantar.gait.analysis.prints.regions import regions_of, with_toe_line
+from plantar.gait.analysis.prints.regions import regions_of, ten_regions_of, with_toe_line
 from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.steps.step_load import StepLoads
+from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import PressureRecording
 
 
@@ -32,8 +35,8 @@ def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads)
         return gait
     insole = recording.kind == "insole"
     of_sole = float(layout.outline[:, 0].max() - print_.origin[0]) if insole else None
-    print_, region = _with_regions(print_, loaded, of_sole)
     whole = footprint_of_cells(layout, np.ones(len(layout)), np.ones(len(layout), dtype=bool), gait.foot.side)
+    print_, region = _with_regions(gait.masks, layout, print_, whole, loaded, of_sole)
     return replace(gait, footprint=print_, region=region, sole=whole)
 
 
@@ -44,12 +47,34 @@ def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepL
 
 
 def _with_regions(
-    print_: Footprint, loaded: NDArray[np.bool_], of_sole: float | None = None
+    masks: Masks,
+    layout: SoleLayout,
+    print_: Footprint,
+    sole: Footprint | None,
+    loaded: NDArray[np.bool_],
+    of_sole: float | None = None,
 ) -> tuple[Footprint, NDArray[np.int64]]:
     print_ = with_toe_line(print_)
     region = np.full(len(loaded), -1)
-    region[loaded] = regions_of(print_, of_sole)
+    if masks.kind == "polygons":
+        for index, inside in reversed(list(enumerate(cells_in_polygons(masks, layout, sole or print_)))):
+            region[inside] = index
+    else:
+        region[loaded] = ten_regions_of(print_, of_sole) if masks.kind == "ten" else regions_of(print_, of_sole)
     return print_, region
+
+
+def places_in_foot(layout: SoleLayout, print_: Footprint) -> NDArray[np.float64]:
+    """Returns cells' places (k, 2) in foot coordinates: shares of a footprint's, or sole's, length and width."""
+    low = print_.rings.reshape(-1, 2).min(axis=0)
+    high = print_.rings.reshape(-1, 2).max(axis=0)
+    return np.asarray((print_.in_foot(layout.positions[:, :2]) - low) / (high - low))
+
+
+def cells_in_polygons(masks: Masks, layout: SoleLayout, print_: Footprint) -> list[NDArray[np.bool_]]:
+    """Returns which cells (k,) of a layout are in each polygon of masks, by the length and width of a print."""
+    places = places_in_foot(layout, print_)
+    return [np.asarray(shapely.contains_xy(shapely.Polygon(ring), places)) for ring in masks.polygons]
 
 
 def footprint_of_step(
@@ -68,7 +93,7 @@ def footprint_of_step(
     forward = of_step.forward if of_step is not None else np.array([1.0, 0.0])
     pressure = highest if recording.raw else highest / layout.areas
     print_ = footprint_of_cells(layout, pressure, loaded, gait.foot.side, forward)
-    return (None, None) if print_ is None else _with_regions(print_, loaded)
+    return (None, None) if print_ is None else _with_regions(gait.masks, layout, print_, None, loaded)
 
 
 def print_of_contact(contact: Contact, side: Side, prints: Sequence[PlatformPrint]) -> PlatformPrint | None:
