@@ -90,6 +90,17 @@ REGION_MEASURES: Mapping[str, Measure] = {
 }
 """Measures of a region of the foot in a step."""
 
+_PERCENT = (
+    *(("_percent_bw_per_s", "_N_s"), ("_percent_bw_s", "_Ns"), ("_percent_bw", "_N")),
+    ("_percent_foot", "_m"),
+)
+"""Ends of keys in percent of body weight and foot length, and those in SI."""
+
+_IN_FEET = (
+    *("cop_path_m", "cop_excursion_ap_m", "cop_excursion_ml_m"),
+    *("step_length_m", "step_width_m", "stride_length_m"),
+)
+
 _RAW = (("_Pas", "_raw_s"), ("_Pa", "_raw"), ("_Ns", "_raw_s"), ("_N_s", "_raw_s1"), ("_Nm", "_raw_m"), ("_N", "_raw"))
 
 
@@ -99,11 +110,54 @@ def full_title(key: str) -> str:
     Example:
         >>> full_title("cop_path_m"), full_title("peak_force_N"), full_title("mine")
         ('CoP path length', 'Peak force', 'mine')
+        >>> full_title("forefoot_medial.peak_force_percent_bw")
+        'Forefoot medial: peak force'
     """
-    measure = MEASURES.get(key)
+    region, _, name = key.rpartition(".")
+    plain = next((name.removesuffix(end) + unit for end, unit in _PERCENT if name.endswith(end)), name)
+    if region:
+        title = REGION_MEASURES[plain].title if plain in REGION_MEASURES else name
+        return f"{region.replace('_', ' ').capitalize()}: {title[0].lower()}{title[1:]}"
+    measure = MEASURES.get(plain)
     if measure is None:
         return key
     return f"CoP {measure.title[0].lower()}{measure.title[1:]}" if key.startswith("cop_") else measure.title
+
+
+def in_percent(key: str) -> str:
+    """Measure's key in percent of body weight or foot length; empty where it is not given so.
+
+    Example:
+        >>> in_percent("peak_force_N"), in_percent("heel.impulse_Ns"), in_percent("arch_index")
+        ('peak_force_percent_bw', 'heel.impulse_percent_bw_s', '')
+    """
+    for percent, end in _PERCENT:
+        if key.endswith(end) and (end != "_m" or key in _IN_FEET):
+            return key.removesuffix(end) + percent
+    return ""
+
+
+def unit_of(key: str) -> tuple[str, float]:
+    """Unit in reports of a measure's key, of a foot or region, and the factor from the key's unit to it.
+
+    Example:
+        >>> unit_of("peak_pressure_Pa"), unit_of("heel.peak_force_percent_bw"), unit_of("mine")
+        (('kPa', 0.001), ('% BW', 1.0), ('', 1.0))
+    """
+    for percent, _ in _PERCENT:
+        if key.endswith(percent):
+            return _PERCENT_UNITS[percent], 1.0
+    region, _, name = key.rpartition(".")
+    measure = (REGION_MEASURES if region else MEASURES).get(name)
+    return ("", 1.0) if measure is None else (measure.unit, measure.factor)
+
+
+_PERCENT_UNITS = {
+    "_percent_bw_per_s": "% BW/s",
+    "_percent_bw_s": "% BW·s",
+    "_percent_bw": "% BW",
+    "_percent_foot": "% of foot length",
+}
 
 
 def raw_name(key: str) -> str:
@@ -143,3 +197,13 @@ COMPARED = (
     "cpei_percent",
 )
 """Measures that are compared between conditions, with one allowance for all of them."""
+
+REGION_COMPARED = (
+    "peak_force_N",
+    "peak_pressure_Pa",
+    "impulse_Ns",
+    "pressure_time_integral_Pas",
+    "contact_area_m2",
+    "contact_time_s",
+)
+"""Measures of each region that are compared with them."""

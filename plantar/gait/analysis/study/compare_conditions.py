@@ -1,7 +1,7 @@
-"""Conditions of a study compared: participants count once a condition, paired if possible."""
+"""Levels of a factor compared: participants count once a level, within participants if possible."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 from typing import NamedTuple
 
@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 
 from plantar.common.gravity import GRAVITY
 from plantar.gait.analysis.compare import unlike
-from plantar.gait.analysis.measures import COMPARED, raw_name
+from plantar.gait.analysis.measures import COMPARED
+from plantar.gait.analysis.study.designs import Contrast, Design, any_differ, compare_levels
+from plantar.gait.analysis.study.measured_table import Cell, cells_of, means, measure_keys, participants_of
 from plantar.gait.analysis.study.one_recording import RecordingResult
-from plantar.gait.analysis.study.statistics import Effect, PermutationTest, effect_of, permutation_test
+from plantar.gait.analysis.study.statistics import Effect, adjusted, effect_of, with_margin
 
-_Group = Sequence[Sequence[RecordingResult]]  # Recordings of each participant
-FEWEST = 3  # Participants a condition from which a difference can be tested at all
-MOST_PAIRS = 6  # Pairs of conditions that are compared: those of four conditions
+FEWEST = 3  # Participants a level from which a difference can be tested at all
+MOST_LEVELS = 8  # Levels of a factor that are compared: 28 pairs
+MAP_PERMUTATIONS = 500  # Of maps, which have 500 values: a p of 0.05 is known to 0.01
 # Robust standard deviations from the median of a condition beyond which a participant is an outlier to look at.
 _FAR = 3.5
 
@@ -31,9 +33,19 @@ class Outlier(NamedTuple):
     median: float
 
 
+@dataclass(frozen=True)
+class AnyDifference:
+    """Whether any levels of a factor differ in a measure: F, its degrees of freedom and probabilities."""
+
+    f: float
+    freedom: tuple[int, int]
+    p: float
+    p_all: float
+
+
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Conditions A and B of a study; curves, maps and tests are None with too few participants.
+    """Levels A and B of a study's factor; curves, maps and tests are None with too few participants.
 
     Attributes:
         paired: Whether the same participants are in both.
@@ -44,6 +56,11 @@ class Comparison:
         map_test: Where they differ, among `places`.
         places: Map places (36, 14) that every participant has.
         note: Why nothing was compared, or empty.
+        doubts: What else may explain a difference.
+        factor: Name of the factor.
+        levels: All its levels that are compared as one family.
+        covariates: Names of what is allowed for.
+        omnibus: Of three levels or more, whether any differ, by measure.
     """
 
     a: str
@@ -52,127 +69,202 @@ class Comparison:
     effects: Mapping[str, Effect]
     curve_unit: str = "N"
     curves: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
-    curve_test: PermutationTest | None = None
+    curve_test: Contrast | None = None
     maps: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
-    map_test: PermutationTest | None = None
+    map_test: Contrast | None = None
     places: NDArray[np.bool_] | None = None
     note: str = ""
     doubts: Sequence[str] = ()
+    factor: str = "condition"
+    levels: Sequence[str] = ()
+    covariates: Sequence[str] = ()
+    omnibus: Mapping[str, AnyDifference] = field(default_factory=dict)
 
 
-def compare_conditions(results: Sequence[RecordingResult]) -> list[Comparison]:
-    """Comparisons of every two conditions in order of appearance; six pairs at most."""
-    names = list(dict.fromkeys(r.who.condition for r in results if r.who.condition and not r.error))
-    return [_compared(results, a, b) for a, b in list(combinations(names, 2))[:MOST_PAIRS]]
+def compare_conditions(
+    results: Sequence[RecordingResult],
+    factor: str = "condition",
+    covariates: Sequence[str] = (),
+    margin_percent: float | None = None,
+) -> list[Comparison]:
+    """Returns comparisons of every two levels of a factor, in order of appearance, tested as one family.
+
+    Args:
+        results: Recordings of the study.
+        factor: "condition", "side", "affected", or a column of the table of participants.
+        covariates: Columns or measures that are allowed for, as speed.
+        margin_percent: Differences up to this share of A's mean in percent are called equivalent.
+    """
+    cells = cells_of(results, factor)
+    levels = list(dict.fromkeys(cell.level for cell in cells))
+    if len(levels) < 2:
+        return []
+    if len(levels) > MOST_LEVELS:
+        note = f"{factor} has {len(levels)} levels; allowed: up to {MOST_LEVELS}"
+        return [Comparison(levels[0], levels[1], False, {}, note=note, factor=factor)]
+    doubts: list[str] = []
+    if covariates:
+        known = [c for c in cells if all(np.isfinite(c.covariate(name)) for name in covariates)]
+        lost = len({c.participant for c in cells}) - len({c.participant for c in known})
+        doubts += [f"{lost} participant(s) without {' and '.join(covariates)} are left out"] if lost else []
+        cells = known
+    every = levels
+    chosen, levels, within, notes = _chosen(cells, levels)
+    doubts += [f"{name} has too few participants and is left out" for name in every if name not in levels]
+    if notes:
+        names = combinations(levels, 2)
+        return [Comparison(*pair, False, {}, note=n, factor=factor) for pair, n in zip(names, notes, strict=True)]
+    return _compared(chosen, levels, within, factor, covariates, margin_percent, doubts)
 
 
-def _compared(results: Sequence[RecordingResult], a: str, b: str) -> Comparison:
-    of_a, of_b = (_by_participant(results, name) for name in (a, b))
-    shared = [who for who in of_a if who in of_b]
-    paired = len(shared) >= FEWEST
-    first, second = (
-        (shared, shared) if paired else ([w for w in of_a if w not in of_b], [w for w in of_b if w not in of_a])
-    )
-    if min(len(first), len(second)) < FEWEST:
-        note = (
-            f"{a or 'A'} has {len(of_a)} and {b or 'B'} {len(of_b)} participants, {len(shared)} of them in both: "
+def _chosen(cells: Sequence[Cell], levels: list[str]) -> tuple[list[Cell], list[str], bool, list[str]]:
+    """Cells and levels that are compared, whether within participants; else levels and why each pair is not."""
+    people = participants_of(cells)
+    for kept in _fuller(people, levels):
+        whole = [who for who, own in people.items() if all(level in own for level in kept)]
+        if len(whole) >= FEWEST:
+            return [people[who][level] for who in whole for level in kept], kept, True, []
+        alone = [cell for own in people.values() if sum(level in own for level in kept) == 1 for cell in own.values()]
+        alone = [cell for cell in alone if cell.level in kept]
+        if all(sum(cell.level == level for cell in alone) >= FEWEST for level in kept):
+            return alone, kept, False, []
+    notes = []
+    for a, b in combinations(levels, 2):
+        both = sum(a in own and b in own for own in people.values())
+        of_a, of_b = (sum(level in own for own in people.values()) for level in (a, b))
+        notes.append(
+            f"{a} has {of_a} and {b} {of_b} participants, {both} of them in both: "
             f"differences take {FEWEST} in both, or {FEWEST} others in each"
         )
-        return Comparison(a, b, False, {}, note=note)
-    recordings_a = [of_a[w] for w in first]
-    recordings_b = [of_b[w] for w in second]
-    unit, curves = _curves(recordings_a, recordings_b)
-    chain = [] if curves is None else grid_neighbours(np.ones((1, curves[0].shape[1]), dtype=bool))
-    curve_test = None if curves is None else permutation_test(*curves, paired, chain)
-    maps, places, map_test = _maps(recordings_a, recordings_b, paired)
-    effects = _effects(recordings_a, recordings_b, paired)
-    one, other = ({r.sensor for own in group for r in own} for group in (recordings_a, recordings_b))
-    doubts = unlike(one, other, a, b)
-    return Comparison(a, b, paired, effects, unit, curves, curve_test, maps, map_test, places, doubts=doubts)
+    return [], levels, False, notes
 
 
-def _by_participant(results: Sequence[RecordingResult], condition: str) -> dict[str, list[RecordingResult]]:
-    out: dict[str, list[RecordingResult]] = {}
-    for result in results:
-        if result.who.condition == condition and not result.error and any(f["steps"] for f in result.feet.values()):
-            out.setdefault(result.who.participant, []).append(result)
+def _fuller(people: Mapping[str, Mapping[str, Cell]], levels: Sequence[str]) -> list[list[str]]:
+    """Levels to compare: all, then without that of the fewest participants, and so on."""
+    counts = {level: sum(level in own for own in people.values()) for level in levels}
+    out = [list(levels)]
+    for level in sorted(levels, key=lambda name: counts[name])[: max(0, len(levels) - 2)]:
+        out.append([name for name in out[-1] if name != level])
     return out
 
 
-def mean_of(recordings: Sequence[RecordingResult], key: str) -> float:
-    """Returns participant's mean of a measure's key over recordings and feet; NaN without any."""
-    values = [foot[key] for r in recordings for foot in r.feet.values() if key in foot]
-    return float(np.mean(values)) if values else float("nan")
-
-
-def _effects(a: _Group, b: _Group, paired: bool) -> dict[str, Effect]:
-    keys = list(dict.fromkeys(k for name in COMPARED for k in (name, raw_name(name))))
-    first, second = (np.array([[mean_of(own, key) for key in keys] for own in group]) for group in (a, b))
-    kept = np.isfinite(first).all(axis=0) & np.isfinite(second).all(axis=0)
-    if not kept.any():
-        return {}
-    test = permutation_test(first[:, kept], second[:, kept], paired)
-    names = [key for key, keep in zip(keys, kept, strict=True) if keep]
-    return {
-        key: effect_of(first[:, kept][:, i], second[:, kept][:, i], paired, float(test.p[i]), float(test.p_all[i]))
-        for i, key in enumerate(names)
-    }
-
-
-def _curves(a: _Group, b: _Group) -> tuple[str, tuple[NDArray[np.float64], NDArray[np.float64]] | None]:
-    everyone = [r for own in (*a, *b) for r in own]
-    if not all(any(r.curves for r in own) for own in (*a, *b)) or len({r.raw for r in everyone}) > 1:
-        return "N", None
-    weighed = all(r.who.mass_kg is not None for r in everyone) and not everyone[0].raw
-
-    def curve(own: Sequence[RecordingResult]) -> NDArray[np.float64]:
-        scales = [100.0 / (r.who.mass_kg * GRAVITY) if weighed and r.who.mass_kg else 1.0 for r in own]
-        return np.asarray(np.mean([s * c for s, r in zip(scales, own, strict=True) for c in r.curves.values()], axis=0))
-
-    unit = "% of body weight" if weighed else "counts" if everyone[0].raw else "N"
-    return unit, (np.array([curve(own) for own in a]), np.array([curve(own) for own in b]))
-
-
-def _maps(
-    a: _Group, b: _Group, paired: bool
-) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]] | None, NDArray[np.bool_] | None, PermutationTest | None]:
-    everyone = [r for own in (*a, *b) for r in own]
-    if not all(any(r.maps for r in own) for own in (*a, *b)) or len({r.raw for r in everyone}) > 1:
-        return None, None, None
-    first, second = (
-        np.array([np.mean([m for r in own for m in r.maps.values()], axis=0) for own in group]) for group in (a, b)
+def _compared(
+    cells: Sequence[Cell],
+    levels: Sequence[str],
+    within: bool,
+    factor: str,
+    covariates: Sequence[str],
+    margin_percent: float | None,
+    doubts: Sequence[str],
+) -> list[Comparison]:
+    names = list(dict.fromkeys(cell.participant for cell in cells))
+    design = Design(
+        np.array([names.index(cell.participant) for cell in cells]),
+        np.array([levels.index(cell.level) for cell in cells]),
+        np.array([[cell.covariate(name) for name in covariates] for cell in cells]).reshape(len(cells), -1),
+        within,
     )
-    places = np.isfinite(first).all(axis=0) & np.isfinite(second).all(axis=0)
-    if not places.any():
-        return None, None, None
-    test = permutation_test(first[:, places], second[:, places], paired, grid_neighbours(places), 500)
-    return (first, second), places, test
+    effects, omnibus = _effects(cells, design, margin_percent)
+    unit, curves = _curves(cells)
+    line = None if curves is None else np.ones(curves.shape[1], dtype=bool)
+    curve_tests = None if curves is None else compare_levels(curves, design, line)
+    maps, places = _maps(cells)
+    map_tests = None
+    if maps is not None and places is not None:
+        map_tests = compare_levels(maps[:, places], design, places, MAP_PERMUTATIONS)
+    out = []
+    for i, (a, b) in enumerate(combinations(range(len(levels)), 2)):
+        of_a, of_b = (np.flatnonzero(design.level == level) for level in (a, b))
+        first, second = ({r.sensor for k in rows.tolist() for r in cells[k].recordings} for rows in (of_a, of_b))
+        out.append(
+            Comparison(
+                levels[a],
+                levels[b],
+                within,
+                effects[i],
+                unit,
+                None if curves is None else (curves[of_a], curves[of_b]),
+                None if curve_tests is None else curve_tests[i],
+                None if maps is None else (maps[of_a], maps[of_b]),
+                None if map_tests is None else map_tests[i],
+                places,
+                doubts=[*doubts, *unlike(first, second, levels[a], levels[b])],
+                factor=factor,
+                levels=tuple(levels),
+                covariates=tuple(covariates),
+                omnibus=omnibus,
+            )
+        )
+    return out
 
 
-def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
-    """Side neighbours' numbers of each kept grid place, numbered row by row.
+def _effects(
+    cells: Sequence[Cell], design: Design, margin_percent: float | None
+) -> tuple[list[dict[str, Effect]], dict[str, AnyDifference]]:
+    """Effects of each pair of levels by measure, and whether any levels differ."""
+    keys = measure_keys(cells)
+    pairs = list(combinations(range(design.levels), 2))
+    if not keys:
+        return [{} for _ in pairs], {}
+    values = means(cells, keys)
+    out = []
+    for contrast in compare_levels(values, design):
+        a, b = (values[design.level == level] for level in (contrast.a, contrast.b))
+        own: dict[str, Effect] = {}
+        for i, key in enumerate(keys):
+            effect = effect_of(a[:, i], b[:, i], design.within, float(contrast.p[i]), float(contrast.p_all[i]))
+            if design.covariates.shape[1]:
+                effect = adjusted(effect, float(contrast.difference[i]), float(contrast.error[i]), contrast.freedom)
+            if margin_percent is not None:
+                effect = with_margin(effect, 0.01 * margin_percent * abs(effect.mean_a))
+            own[key] = effect
+        out.append(own)
+    if len(pairs) == 1:
+        return out, {}
+    test = any_differ(values, design)
+    rows = zip(keys, test.f.tolist(), test.p.tolist(), test.p_all.tolist(), strict=True)
+    return out, {key: AnyDifference(f, test.freedom, p, p_all) for key, f, p, p_all in rows}
 
-    Example:
-        >>> grid_neighbours(np.array([[True, True], [False, True]]))
-        [[1], [0, 2], [1]]
-    """
-    number = np.full(places.shape, -1)
-    number[places] = np.arange(int(places.sum()))
-    padded = np.pad(number, 1, constant_values=-1)
-    rows, columns = np.nonzero(places)
-    around = [padded[rows + 1 + i, columns + 1 + j] for i, j in ((-1, 0), (0, -1), (0, 1), (1, 0))]
-    return [[int(n) for n in one if n >= 0] for one in np.array(around).T]
+
+def _curves(cells: Sequence[Cell]) -> tuple[str, NDArray[np.float64] | None]:
+    """Unit and mean vertical force curves (cells, 101); None where a cell has none."""
+    everyone = [foot for cell in cells for foot in cell.feet]
+    if not all(any(side in r.curves for r, side in c.feet) for c in cells) or len({r.raw for r, _ in everyone}) > 1:
+        return "N", None
+    raw = everyone[0][0].raw
+    weighed = all(r.who.mass_kg is not None for r, _ in everyone) and not raw
+
+    def curve(cell: Cell) -> NDArray[np.float64]:
+        own = [
+            (100.0 / (r.who.mass_kg * GRAVITY) if weighed and r.who.mass_kg else 1.0) * r.curves[side]
+            for r, side in cell.feet
+            if side in r.curves
+        ]
+        return np.asarray(np.mean(own, axis=0))
+
+    return "% of body weight" if weighed else "counts" if raw else "N", np.array([curve(cell) for cell in cells])
+
+
+def _maps(cells: Sequence[Cell]) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_] | None]:
+    """Mean maps of cells in Pa, and the places that every one has; None where a cell has none."""
+    everyone = [foot for cell in cells for foot in cell.feet]
+    if not all(any(side in r.maps for r, side in c.feet) for c in cells) or len({r.raw for r, _ in everyone}) > 1:
+        return None, None
+    maps = np.array([np.mean([r.maps[side] for r, side in c.feet if side in r.maps], axis=0) for c in cells])
+    places = np.isfinite(maps).all(axis=0)
+    return (maps, places) if places.any() else (None, None)
 
 
 def outliers(results: Sequence[RecordingResult]) -> list[Outlier]:
     """Participants with a mean far from their condition's, farthest first; of five or more."""
     found: list[tuple[float, Outlier]] = []
-    for condition in dict.fromkeys(r.who.condition for r in results):
-        people = _by_participant(results, condition)
+    cells = cells_of(results, "condition")
+    for condition in dict.fromkeys(cell.level for cell in cells):
+        people = {cell.participant: cell for cell in cells if cell.level == condition}
         if len(people) < 5:
             continue
         for key in COMPARED:
-            values = {who: mean_of(own, key) for who, own in people.items()}
+            values = {who: own.mean(key) for who, own in people.items()}
             known = np.array([v for v in values.values() if np.isfinite(v)])
             if len(known) < 5:
                 continue

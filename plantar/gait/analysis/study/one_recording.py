@@ -19,6 +19,7 @@ from plantar.errors import FormatError
 from plantar.formats import ReadOptions
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
 from plantar.gait.analysis.compare import sensor_of
+from plantar.gait.analysis.measures import REGION_MEASURES, in_percent, naming
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.force_figures import stance_curves
 from plantar.gait.analysis.results import Analysis
@@ -32,15 +33,6 @@ GRID = (36, 14)
 
 _ARRAYS = ("curve_", "map_")  # in a stored result, before the side
 
-_LENGTHS = (
-    "cop_path_m",
-    "cop_excursion_ap_m",
-    "cop_excursion_ml_m",
-    "step_length_m",
-    "step_width_m",
-    "stride_length_m",
-)
-
 
 @dataclass(frozen=True, eq=False)
 class RecordingResult:
@@ -51,7 +43,7 @@ class RecordingResult:
         key: Digest of file, options and version (`key_of`).
         format: Format's name; empty if unreadable.
         error: Why not measured, or empty.
-        rows: A row a step, with every measure; None if unknown.
+        rows: A row a step, with every measure, of regions as "region.measure"; None if unknown.
         feet: Each foot's mean of each measure, and "steps" used.
         curves: Each foot's mean vertical force (101,) in N over the stance.
         maps: Each foot's mean maximum pressure `GRID` in Pa, heel to toes, lateral to medial, NaN off the sole.
@@ -140,12 +132,18 @@ def measure_recording(
 def _rows(analysis: Analysis, who: Participation) -> list[dict[str, Any]]:
     columns = analysis.steps
     keys = [key for key in columns if key not in ("side", "number", "used", "note", "heel_strike_s", "toe_off_s")]
+    regions = {(s.side, s.number): s.regions for gait in analysis.feet.values() for s in gait.steps}
+    names = dict.fromkeys(name for own in regions.values() for name in own)
+    name_of = naming(analysis.recording.raw)
     out = []
     for values in zip(*(column.tolist() for column in columns.values()), strict=True):
         step = dict(zip(columns, values, strict=True))
         known = {key: step[key] if np.isfinite(step[key]) else None for key in keys}
         head = {"side": step["side"], "step": step["number"], "used": int(step["used"]), "note": step["note"]}
         times = {key: step[key] for key in ("heel_strike_s", "toe_off_s")}
+        own = regions[step["side"], step["number"]]
+        for region in names:
+            known |= {f"{region}.{name_of(key)}": own.get(region, {}).get(key) for key in REGION_MEASURES}
         out.append({**head, **times, **known, **normalised(known, who)})
     return out
 
@@ -161,15 +159,12 @@ def normalised(measures: Mapping[str, float | None], who: Participation) -> dict
     """
     out: dict[str, float | None] = {}
     for key, value in measures.items():
-        if who.mass_kg is not None:
-            scale = 100.0 / (who.mass_kg * GRAVITY)
-            end = next((e for e in ("_N_s", "_Ns", "_N") if key.endswith(e)), None)
-            if end is not None:
-                unit = {"_N_s": "_percent_bw_per_s", "_Ns": "_percent_bw_s", "_N": "_percent_bw"}[end]
-                out[key.removesuffix(end) + unit] = None if value is None else round(value * scale, 9)
-        if who.foot_length_m is not None and key in _LENGTHS:
-            share = None if value is None else round(100.0 * value / who.foot_length_m, 9)
-            out[key.removesuffix("_m") + "_percent_foot"] = share
+        percent = in_percent(key)
+        whole = (
+            who.foot_length_m if percent.endswith("_foot") else None if who.mass_kg is None else who.mass_kg * GRAVITY
+        )
+        if percent and whole is not None:
+            out[percent] = None if value is None else round(100.0 * value / whole, 9)
     return out
 
 

@@ -223,7 +223,7 @@ def _recording_rows(study: Study) -> list[dict[str, Any]]:
 
 def _effect_rows(study: Study) -> list[dict[str, Any]]:
     return [
-        {"a": c.a, "b": c.b, "measure": key, **asdict(effect)}
+        {"factor": c.factor, "a": c.a, "b": c.b, "measure": key, **asdict(effect)}
         for c in study.comparisons
         for key, effect in c.effects.items()
     ]
@@ -254,7 +254,10 @@ def _plain(comparison: Comparison) -> dict[str, Any]:
         key: {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(effect).items()}
         for key, effect in comparison.effects.items()
     }
-    out = {key: getattr(comparison, key) for key in ("a", "b", "paired", "note", "doubts")}
+    out = {
+        key: getattr(comparison, key)
+        for key in ("factor", "a", "b", "paired", "note", "doubts", "levels", "covariates")
+    }
     for name, test in (("curve", comparison.curve_test), ("map", comparison.map_test)):
         if test is not None:
             out[name] = {
@@ -265,7 +268,8 @@ def _plain(comparison: Comparison) -> dict[str, Any]:
                     for number, p in enumerate(test.cluster_p, 1)
                 ],
             }
-    return {**out, "effects": effects}
+    omnibus = {key: asdict(test) for key, test in comparison.omnibus.items()}
+    return {**out, "effects": effects, "any_difference": omnibus}
 
 
 def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:

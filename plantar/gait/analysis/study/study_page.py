@@ -8,8 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from plantar.common.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
-from plantar.gait.analysis.measures import MEASURES, full_title
+from plantar.common.pages.page import (
+    Section,
+    figures_of,
+    group_row,
+    number,
+    page,
+    row,
+    scaled,
+    table,
+    titled,
+    warning_list,
+)
+from plantar.gait.analysis.measures import full_title, unit_of
 from plantar.gait.analysis.pages.force_figures import STANCE
 from plantar.gait.analysis.steps.steady import FEWEST_STEPS
 from plantar.gait.analysis.study.compare_conditions import Comparison
@@ -68,8 +79,10 @@ def _sentence(one: Comparison) -> str:
     found = [(key, e) for key, e in one.effects.items() if e.p_all < 0.05]
     found.sort(key=lambda pair: -abs(sizes[pair[0]] or 0.0))
     how = "the same participants in both" if one.paired else "different participants"
+    pairs = len(one.levels) * (len(one.levels) - 1) // 2
+    family = f"{len(one.effects)} measures" + (f" and {pairs} pairs" if pairs > 1 else "")
     if not found:
-        return f"{one.a} and {one.b} ({how}): no measure differs when all {len(one.effects)} are allowed for."
+        return f"{one.a} and {one.b} ({how}): no measure differs when all {family} are allowed for."
     named = [f"{_title(key)[0]} ({'+' if e.difference > 0 else '−'}, g = {number(sizes[key], 2)})" for key, e in found]
     more = "" if len(named) <= 4 else f" and {len(named) - 4} more"
     doubts = "".join(f" {doubt}." for doubt in one.doubts)
@@ -77,28 +90,78 @@ def _sentence(one: Comparison) -> str:
 
 
 def _title(key: str) -> tuple[str, str, float]:
-    measure = MEASURES.get(key)
-    return full_title(key), measure.unit if measure else "", measure.factor if measure else 1.0
+    return full_title(key), *unit_of(key)
 
 
 def _comparison(one: Comparison) -> str:
     if one.note:
         return f"<p>{html.escape(one.note[0].upper() + one.note[1:])}.</p>"
-    rows = [row(titled(*_title(key)[:2]), _cells(effect, _title(key)[2])) for key, effect in one.effects.items()]
+    head = ["Measure", one.a, one.b, "Difference [95 % CI]", "Hedges' g [95 % CI]", "p", "p (all)"]
+    margin = next((e.margin for e in one.effects.values() if math.isfinite(e.margin)), None)
+    head += [] if margin is None else ["p (equivalent)"]
+    rows: list[str] = []
+    region = ""
+    for key, effect in one.effects.items():
+        own = key.rpartition(".")[0]
+        if own != region:
+            rows.append(group_row(html.escape(own.replace("_", " ").capitalize()), len(head)))
+            region = own
+        rows.append(row(html.escape(titled(*_short_title(key))), _cells(effect, _title(key)[2])))
+    return (
+        table(f"Effects, {html.escape(one.a)} and {html.escape(one.b)}", _caption(one), map(html.escape, head), rows)
+        + _any_difference(one)
+        + _clusters(one)
+    )
+
+
+def _short_title(key: str) -> tuple[str, str]:
+    """Title without the region, which heads its rows, and unit."""
+    title, unit, _ = _title(key)
+    short = title.partition(": ")[2]
+    return (short[0].upper() + short[1:] if short and "." in key else title), unit
+
+
+def _caption(one: Comparison) -> str:
+    n = next(iter(one.effects.values())).n_a if one.effects else 0
+    how = f"{len(one.curves[0]) if one.curves else n} pairs" if one.paired else "independent samples"
     a = html.escape(one.a)
     b = html.escape(one.b)
-    how = (
-        f"{len(one.curves[0]) if one.curves else next(iter(one.effects.values())).n_a} pairs"
-        if one.paired
-        else "independent samples"
+    pairs = len(one.levels) * (len(one.levels) - 1) // 2
+    family = (
+        f"all measures of this table and all {pairs} pairs of {html.escape(one.factor)}"
+        if pairs > 1
+        else ("all measures of this table")
     )
-    caption = (
-        f"Participants' means over steps, feet and recordings; {how}. Difference and Hedges' g are {b} less {a}, "
-        "with 95 % "
-        "confidence intervals. p by permutation; p (all) allows for all measures of this table (largest |t|)."
+    adjusted = f", adjusted for {html.escape(' and '.join(one.covariates))}" if one.covariates else ""
+    equal = (
+        ". p (equivalent): two one-sided tests of the stated margin"
+        if any(math.isfinite(e.margin) for e in one.effects.values())
+        else ""
     )
-    head = ("Measure", a, b, "Difference [95 % CI]", "Hedges' g [95 % CI]", "p", "p (all)")
-    return table(f"Effects, {a} and {b}", caption, head, rows) + _clusters(one)
+    return (
+        f"Participants' means over steps, feet and recordings; {how}. Difference and Hedges' g are {b} less {a}"
+        f"{adjusted}, with 95 % confidence intervals. p by permutation; p (all) allows for {family} (largest |t|)"
+        f"{equal}."
+    )
+
+
+def _any_difference(one: Comparison) -> str:
+    """Of three levels or more, the measures in which any of them differ; shown with the first pair."""
+    if not one.omnibus or (one.a, one.b) != tuple(one.levels[:2]):
+        return ""
+    found = {key: test for key, test in one.omnibus.items() if test.p_all < 0.05}
+    names = html.escape(", ".join(one.levels))
+    if not found:
+        return f"<p>Of {names} together no measure differs (largest F of all {len(one.omnibus)} measures).</p>"
+    rows = [
+        row(
+            html.escape(full_title(key)),
+            [f"F({t.freedom[0]}, {t.freedom[1]}) = {number(t.f)}", _probability(t.p), _probability(t.p_all)],
+        )
+        for key, t in found.items()
+    ]
+    caption = f"Measures in which any of {names} differ; p (all) allows for all {len(one.omnibus)} measures."
+    return table(f"Any difference, {html.escape(one.factor)}", caption, ("Measure", "F", "p", "p (all)"), rows)
 
 
 def _cells(effect: Effect, factor: float) -> list[str]:
@@ -114,6 +177,7 @@ def _cells(effect: Effect, factor: float) -> list[str]:
         f"{text(effect.effect_size, 2)} [{text(effect.effect_low, 2)},\u00a0{text(effect.effect_high, 2)}]",
         _probability(effect.p),
         f"<strong>{_probability(effect.p_all)}</strong>" if effect.p_all < 0.05 else _probability(effect.p_all),
+        *([_probability(effect.p_equivalent)] if math.isfinite(effect.margin) else []),
     ]
 
 
@@ -185,6 +249,7 @@ def _recordings(results: Sequence[RecordingResult]) -> str:
     return table("Recordings", f"One row a recording.{more}", head, rows, words=head[1:])
 
 
+_MOST_REGIONS = 12  # Measures of regions that a figure of effects shows: those that differ
 _A = COLOURS["left"]
 _B = COLOURS["right"]
 _FOUND = "#f2c14e"
@@ -214,7 +279,9 @@ def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str
 
 
 def _draw_effects(one: Comparison) -> Any | None:
-    known = [(key, e) for key, e in one.effects.items() if np.isfinite(e.effect_size)]
+    finite = [(key, e) for key, e in one.effects.items() if np.isfinite(e.effect_size)]
+    own = sorted((pair for pair in finite if "." in pair[0] and pair[1].p_all < 0.05), key=lambda pair: pair[1].p_all)
+    known = [pair for pair in finite if "." not in pair[0]] + own[:_MOST_REGIONS]
     if not known:
         return None
     figure, axes = new_figure(7.0, 1.2 + 0.3 * len(known))

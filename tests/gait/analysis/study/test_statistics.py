@@ -4,9 +4,19 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from plantar.gait.analysis.study.statistics import effect_of, permutation_test, student_quantile
+from plantar.gait.analysis.study.designs import Contrast, Design, compare_levels
+from plantar.gait.analysis.study.statistics import adjusted, effect_of, student_quantile, with_margin
 
-CHAIN = [[j for j in (i - 1, i + 1) if 0 <= j < 101] for i in range(101)]
+LINE = np.ones(101, dtype=bool)
+
+
+def two_levels(a, b, paired, places=None, permutations=2000) -> Contrast:
+    """The contrast of samples (n, k) and (m, k) of two levels."""
+    level = np.repeat([0, 1], [len(a), len(b)])
+    who = np.tile(np.arange(len(a)), 2) if paired else np.arange(len(level))
+    design = Design(who, level, np.zeros((len(level), 0)), paired)
+    (contrast,) = compare_levels(np.vstack([a, b]), design, places, permutations)
+    return contrast
 
 
 @pytest.mark.parametrize("freedom", [1, 2, 3, 7, 30, 400, 1e6])
@@ -61,7 +71,7 @@ def test_the_interval_of_pairs_holds_it_whatever_they_share(alike, spread):
 def test_a_permutation_test_agrees_with_scipys(paired):
     random = np.random.default_rng(1)
     a, b = random.normal(0.0, 1.0, (7, 3)), random.normal(0.6, 1.0, (7, 3))
-    ours = permutation_test(a, b, paired, permutations=4000)
+    ours = two_levels(a, b, paired, permutations=4000)
     if paired:
         theirs = stats.permutation_test(
             (a, b), lambda x, y, axis: np.abs(stats.ttest_rel(y, x, axis=axis)[0]), permutation_type="samples",
@@ -90,7 +100,7 @@ def test_the_null_stays_null_in_95_of_100(paired):
     random = np.random.default_rng(11)
     found = []
     for _ in range(40):
-        test = permutation_test(smooth(random, 7), smooth(random, 7), paired, CHAIN, permutations=100)
+        test = two_levels(smooth(random, 7), smooth(random, 7), paired, LINE, permutations=100)
         found.append((test.significant.any(), (test.p_all <= 0.05).any()))
     assert np.mean(found, axis=0).max() <= 0.15  # 40 draws of 0.05: more than 6 is one in 100
 
@@ -99,7 +109,7 @@ def test_a_difference_is_found_where_it_is():
     random = np.random.default_rng(2)
     a, b = smooth(random, 10), smooth(random, 10)
     b[:, 40:60] += 3.0
-    test = permutation_test(a, b, False, CHAIN, permutations=400)
+    test = two_levels(a, b, False, LINE, permutations=400)
     assert test.significant[45:55].all()
     assert not test.significant[:25].any()
     assert not test.significant[75:].any()
@@ -108,7 +118,7 @@ def test_a_difference_is_found_where_it_is():
 
 def test_where_nothing_varies():
     same = np.ones((4, 3))
-    test = permutation_test(same, same, True, [[], [], []])
+    test = two_levels(same, same, True, np.ones(3, dtype=bool))
     assert test.t.tolist() == [0.0, 0.0, 0.0]
     assert test.p_all.tolist() == [1.0, 1.0, 1.0]
     assert not test.significant.any()
@@ -121,7 +131,7 @@ def test_thresholds_and_clusters_are_those_of_spm1d(paired):
     random = np.random.default_rng(4)
     a, b = smooth(random, 6), smooth(random, 6)
     b[:, 60:80] += 2.5
-    ours = permutation_test(a, b, paired, CHAIN, permutations=10_000)
+    ours = two_levels(a, b, paired, LINE, permutations=10_000)
     whole = spm1d.stats.nonparam.ttest_paired(b, a) if paired else spm1d.stats.nonparam.ttest2(b, a)
     theirs = whole.inference(0.05, two_tailed=True, iterations=-1)
     assert ours.t == pytest.approx(theirs.z, rel=1e-6)
@@ -129,3 +139,32 @@ def test_thresholds_and_clusters_are_those_of_spm1d(paired):
     for cluster in theirs.clusters:
         first, last = (round(end) for end in cluster.endpoints)
         assert (ours.p_all[first + 1 : last] <= 0.055).all()
+
+
+def test_an_adjusted_difference_is_that_of_least_squares():
+    """Of a model with a constant for each participant and a covariate, solved by another route."""
+    random = np.random.default_rng(7)
+    who, level = np.repeat(np.arange(9), 2), np.tile([0, 1], 9)
+    speed = random.normal(1.2, 0.1, 18) + 0.1 * level
+    values = 50.0 * speed + random.normal(0.0, 1.0, 18) + np.repeat(random.normal(0.0, 5.0, 9), 2) + 2.0 * level
+    (found,) = compare_levels(values[:, None], Design(who, level, speed[:, None], True))
+    x = np.column_stack([who[:, None] == np.arange(9), speed, level]).astype(float)
+    beta, rest, *_ = np.linalg.lstsq(x, values, rcond=None)
+    error = np.sqrt(rest[0] / (18 - 11) * np.linalg.inv(x.T @ x)[-1, -1])
+    assert found.difference == pytest.approx([beta[-1]], rel=1e-9)
+    assert found.error == pytest.approx([error], rel=1e-9)
+    assert found.freedom == 7
+    first, second = values[level == 0], values[level == 1]
+    effect = adjusted(effect_of(first, second, True, 1.0, 1.0), beta[-1], error, 7)
+    reach = stats.t.ppf(0.975, 7) * error
+    assert (effect.low, effect.high) == pytest.approx((beta[-1] - reach, beta[-1] + reach), rel=1e-9)
+
+
+def test_equivalence_is_two_one_sided_tests_of_scipy():
+    random = np.random.default_rng(8)
+    a = random.normal(10.0, 1.0, 12)
+    b = a + random.normal(0.1, 0.4, 12)
+    ours = with_margin(effect_of(a, b, True, 1.0, 1.0), 0.5).p_equivalent
+    low = stats.ttest_1samp(b - a, -0.5, alternative="greater").pvalue
+    high = stats.ttest_1samp(b - a, 0.5, alternative="less").pvalue
+    assert ours == pytest.approx(max(low, high), rel=1e-9)

@@ -1,0 +1,387 @@
+"""Factors with any number of levels compared by permutation, with covariates, as one family over all pairs.
+
+The statistic of a pair of levels is the t of their difference in a linear model of the rows of these two levels. Of a
+factor within participants, the model has a constant for each participant, and levels are exchanged within
+participants; of a factor between participants, all rows are exchanged. Covariates are partialled out: what a model
+without the factor leaves of the values is permuted (Freedman & Lane 1983, J. Bus. Econ. Stat. 1:292; Winkler et al.
+2014, NeuroImage 92:381). The largest |t| over all values and all pairs holds the familywise error of all of them
+(Westfall & Young 1993, Resampling-Based Multiple Testing); values on a line or grid have clusters, too (Maris &
+Oostenveld 2007, J. Neurosci. Methods 164:177).
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations, permutations, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.study.clusters import Clusters
+from plantar.gait.analysis.study.statistics import student_quantile
+
+# Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation).
+PERMUTATIONS = 2000
+_SEED = 1
+_BLOCK = 2_000_000  # Values that are permuted together
+_ROUNDING = 1e-9  # Share of a statistic that is rounding: a permuted one this much below the observed one equals it
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """Rows of a factor's comparison: one for each participant and level.
+
+    Attributes:
+        participant: Number (r,) of each row's participant.
+        level: Number (r,) of each row's level, from 0.
+        covariates: Covariates (r, q), or (r, 0).
+        within: Whether levels are compared within participants.
+    """
+
+    participant: NDArray[np.int64]
+    level: NDArray[np.int64]
+    covariates: NDArray[np.float64]
+    within: bool
+
+    @property
+    def levels(self) -> int:
+        """Number of levels."""
+        return int(self.level.max()) + 1
+
+    def of_rows(self, rows: NDArray[np.int64]) -> "Design":
+        """Design of some rows by their numbers."""
+        return Design(self.participant[rows], self.level[rows], self.covariates[rows], self.within)
+
+    @cached_property
+    def nuisance(self) -> NDArray[np.float64]:
+        """Orthonormal columns (r, n) of all that is not the factor: constants and covariates."""
+        if self.within:
+            constants = (self.participant[:, None] == np.unique(self.participant)).astype(float)
+        else:
+            constants = np.ones((len(self.level), 1))
+        return _orthonormal(np.column_stack([constants, _scaled(self.covariates)]))
+
+
+@dataclass(frozen=True, eq=False)
+class Contrast:
+    """Difference of two levels, B less A, in k values.
+
+    Attributes:
+        a: Number of level A.
+        b: Number of level B.
+        difference: Adjusted difference (k,).
+        error: Its standard error (k,).
+        freedom: Degrees of freedom of the error.
+        t: t (k,); 0 where nothing varies.
+        p: Probability (k,) of such |t| by chance, of this pair and value alone.
+        p_all: The same (k,) of all values and all pairs together.
+        threshold: |t| that the largest of all values and pairs exceeds in 5 % of permutations.
+        clusters: Number (k,) of the cluster of each value, from 1; 0 for none.
+        cluster_p: Probability of each cluster's mass by chance, of all pairs together.
+        permutations: Number, the observed one included.
+    """
+
+    a: int
+    b: int
+    difference: NDArray[np.float64]
+    error: NDArray[np.float64]
+    freedom: int
+    t: NDArray[np.float64]
+    p: NDArray[np.float64]
+    p_all: NDArray[np.float64]
+    threshold: float
+    clusters: NDArray[np.int64]
+    cluster_p: tuple[float, ...]
+    permutations: int
+
+    @property
+    def significant(self) -> NDArray[np.bool_]:
+        """Values (k,) in a cluster with p at most 0.05."""
+        return np.isin(self.clusters, [number for number, p in enumerate(self.cluster_p, 1) if p <= 0.05])
+
+
+@dataclass(frozen=True, eq=False)
+class Omnibus:
+    """Whether any levels differ: F (k,), its probabilities alone and for all values, and degrees of freedom."""
+
+    f: NDArray[np.float64]
+    p: NDArray[np.float64]
+    p_all: NDArray[np.float64]
+    freedom: tuple[int, int]
+
+
+def compare_levels(
+    values: NDArray[np.float64], design: Design, places: NDArray[np.bool_] | None = None, most: int = PERMUTATIONS
+) -> list[Contrast]:
+    """Returns contrasts of all pairs of levels, in order (0, 1), (0, 2), ...
+
+    Args:
+        values: Values (r, k) of the design's rows.
+        design: Which row is of whom.
+        places: Line (k,) or grid of which k places are values, for clusters; each value is one by itself where None.
+        most: Permutations that are drawn where there are more.
+
+    Example:
+        >>> random = np.random.default_rng(0)
+        >>> who, level = np.divmod(np.arange(24), 3)
+        >>> values = random.normal(size=(24, 2)) + np.outer(level == 2, [3.0, 0.0])
+        >>> design = Design(who, level, np.zeros((24, 0)), within=True)
+        >>> [(c.a, c.b, (c.p_all < 0.05).tolist()) for c in compare_levels(values, design)]
+        [(0, 1, [False, False]), (0, 2, [True, False]), (1, 2, [True, False])]
+    """
+    pairs = [_Pair(design, a, b) for a, b in combinations(range(design.levels), 2)]
+    clusters = Clusters(places)
+    observed = [pair.t_of(_residuals(values, design)[pair.rows]) for pair in pairs]
+    beyond = [clusters.of(t, pair.threshold) for t, pair in zip(observed, pairs, strict=True)]
+    heavy = any(masses for _, masses in beyond)
+    tops, weights = _largest(values, design, pairs, clusters, heavy, most)
+    out = []
+    for pair, t, (labels, masses) in zip(pairs, observed, beyond, strict=True):
+        own = design.of_rows(pair.rows)
+        # What is permuted over all levels holds the error where no level differs; what is permuted over these two
+        # alone, where others do.
+        same = [_Pair(own, pair.a, pair.b, pair.levels)]
+        p, alone, own_weights = _alone(values[pair.rows], own, same[0], t, clusters, bool(masses), most)
+        family = _shares(tops, np.abs(t))
+        cluster_p = [max(float(_shares(w, np.array([m]))[0]) for w in (weights, own_weights)) for m in masses]
+        difference, error = pair.effect_of(values[pair.rows])
+        out.append(
+            Contrast(
+                pair.a,
+                pair.b,
+                difference,
+                error,
+                pair.freedom,
+                t,
+                p,
+                np.maximum(family, _shares(alone, np.abs(t))),
+                float(np.sort(tops)[max(0, math.ceil(0.95 * len(tops)) - 1)]),
+                labels,
+                tuple(cluster_p),
+                len(tops),
+            )
+        )
+    return out
+
+
+def any_differ(values: NDArray[np.float64], design: Design, most: int = PERMUTATIONS) -> Omnibus:
+    """Returns whether any of a design's levels differ in values (r, k), by the largest F of `most` permutations.
+
+    Of two levels, F is t squared.
+    """
+    dummies = (design.level[:, None] == np.arange(1, design.levels)).astype(float)
+    q = design.nuisance
+    own = _orthonormal(dummies - q @ (q.T @ dummies))
+    rest = len(design.level) - q.shape[1] - own.shape[1]
+    freedom = (own.shape[1], rest)
+
+    def f_of(y: NDArray[np.float64]) -> NDArray[np.float64]:
+        told = (np.einsum("rc,...rk->...ck", own, y) ** 2).sum(axis=-2)
+        left = (y**2).sum(axis=-2) - (np.einsum("rc,...rk->...ck", q, y) ** 2).sum(axis=-2) - told
+        floor = 1e-24 * np.maximum((y**2).sum(axis=-2), 1e-300)
+        return np.asarray(np.where(told <= floor, 0.0, told / freedom[0] / (np.maximum(left, floor) / freedom[1])))
+
+    residuals = _residuals(values, design)
+    observed = f_of(residuals)
+    each = np.zeros(observed.shape)
+    tops = []
+    for block in _blocks(design, values.shape[1], most):
+        f = f_of(residuals[block])
+        each += (f >= observed * (1.0 - _ROUNDING)).sum(axis=0)
+        tops.append(f.max(axis=1, initial=0.0))
+    largest = np.concatenate(tops)
+    return Omnibus(observed, each / len(largest), _shares(largest, observed), freedom)
+
+
+class _Pair:
+    """t of two levels of a design, from values of their rows."""
+
+    def __init__(self, design: Design, a: int, b: int, levels: tuple[int, int] | None = None) -> None:
+        first, second = levels or (a, b)
+        kept = (design.level == first) | (design.level == second)
+        if design.within:  # a participant with one of the two levels shows nothing of their difference
+            both = np.intersect1d(design.participant[design.level == first], design.participant[design.level == second])
+            kept &= np.isin(design.participant, both)
+        self.a = a
+        self.b = b
+        self.levels = (first, second)
+        self.rows = np.flatnonzero(kept)
+        own = design.of_rows(self.rows)
+        self.nuisance = own.nuisance
+        x = (own.level == second).astype(float)
+        x -= self.nuisance @ (self.nuisance.T @ x)
+        self.length = float(np.sqrt(x @ x))
+        self.x = x / max(self.length, 1e-300)
+        self.freedom = len(x) - self.nuisance.shape[1] - 1
+
+    @property
+    def threshold(self) -> float:
+        """|t| from which a value is in a cluster: that of p = 0.05 by itself."""
+        return student_quantile(0.975, max(self.freedom, 1))
+
+    def parts(self, y: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Projection on the difference and standard deviation of the rest, of values (..., r, k)."""
+        along = np.einsum("r,...rk->...k", self.x, y)
+        squares = (y**2).sum(axis=-2)
+        nuisance = (np.einsum("rn,...rk->...nk", self.nuisance, y) ** 2).sum(axis=-2)
+        rest = np.maximum(squares - nuisance - along**2, 1e-24 * squares)
+        return along, np.asarray(np.sqrt(rest / max(self.freedom, 1)))
+
+    def t_of(self, y: NDArray[np.float64]) -> NDArray[np.float64]:
+        along, spread = self.parts(y)
+        small = np.abs(along) <= 1e-12 * np.sqrt((y**2).sum(axis=-2))
+        return np.asarray(np.where(small, 0.0, along / np.maximum(spread, 1e-300)))
+
+    def effect_of(self, y: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Adjusted difference and its standard error."""
+        along, spread = self.parts(y - y.mean(axis=0))
+        return along / max(self.length, 1e-300), spread / max(self.length, 1e-300)
+
+
+def _orthonormal(columns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Orthonormal basis of columns (r, n) without those that follow from others."""
+    if columns.shape[1] == 0:
+        return columns
+    u, size, _ = np.linalg.svd(columns, full_matrices=False)
+    return np.asarray(u[:, size > 1e-9 * max(float(size.max()), 1e-300)])
+
+
+def _scaled(columns: NDArray[np.float64]) -> NDArray[np.float64]:
+    centred = columns - columns.mean(axis=0)
+    return np.asarray(centred / np.maximum(centred.std(axis=0), 1e-300))
+
+
+def _residuals(values: NDArray[np.float64], design: Design) -> NDArray[np.float64]:
+    q = design.nuisance
+    centred = values - values.mean(axis=0)
+    return np.asarray(centred - q @ (q.T @ centred))
+
+
+def _largest(
+    values: NDArray[np.float64],
+    design: Design,
+    pairs: Sequence[_Pair],
+    clusters: Clusters,
+    heavy: bool,
+    most: int,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Largest |t| and heaviest cluster over all pairs of each permutation."""
+    residuals = _residuals(values, design)
+    tops: list[NDArray[np.float64]] = []
+    weights: list[float] = []
+    for block in _blocks(design, values.shape[1], most):
+        found = [pair.t_of(residuals[block[:, pair.rows]]) for pair in pairs]
+        tops.append(np.max([np.abs(t).max(axis=1, initial=0.0) for t in found], axis=0))
+        if heavy:
+            heaviest = [[clusters.heaviest(one, p.threshold) for one in t] for p, t in zip(pairs, found, strict=True)]
+            weights += np.max(heaviest, axis=0).tolist()
+    top = np.concatenate(tops)
+    return top, np.array(weights) if heavy else np.zeros(len(top))
+
+
+def _alone(
+    values: NDArray[np.float64],
+    design: Design,
+    pair: _Pair,
+    observed: NDArray[np.float64],
+    clusters: Clusters,
+    heavy: bool,
+    most: int,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Probability of each |t|, largest |t| and heaviest cluster of each permutation of two levels alone."""
+    residuals = _residuals(values, design)
+    each = np.zeros(observed.shape)
+    tops: list[NDArray[np.float64]] = []
+    weights: list[float] = []
+    for block in _blocks(design, values.shape[1], most):
+        t = pair.t_of(residuals[block])
+        size = np.abs(t)
+        each += (size >= np.abs(observed) * (1.0 - _ROUNDING)).sum(axis=0)
+        tops.append(size.max(axis=1, initial=0.0))
+        if heavy:
+            weights += [clusters.heaviest(one, pair.threshold) for one in t]
+    top = np.concatenate(tops)
+    return each / len(top), top, np.array(weights) if heavy else np.zeros(len(top))
+
+
+def _shares(permuted: NDArray[np.float64], observed: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Share of permuted statistics (p,) that reach each observed one (k,)."""
+    ordered = np.sort(permuted)
+    return np.asarray(1.0 - np.searchsorted(ordered, observed * (1.0 - _ROUNDING), side="left") / len(ordered))
+
+
+def _blocks(design: Design, values: int, most: int) -> Iterator[NDArray[np.int64]]:
+    """Row numbers (b, r) of permutations, the observed one first, some at a time."""
+    rows = len(design.level)
+    size = max(1, _BLOCK // max(1, rows * values))
+    block: list[NDArray[np.int64]] = []
+    for order in _orders(design, most):
+        block.append(order)
+        if len(block) == size:
+            yield np.array(block)
+            block = []
+    if block:
+        yield np.array(block)
+
+
+def _orders(design: Design, most: int) -> Iterator[NDArray[np.int64]]:
+    """Every order of rows that gives other levels, or the observed one and drawn ones."""
+    rows = np.arange(len(design.level))
+    groups = [np.flatnonzero(design.participant == who) for who in np.unique(design.participant)]
+    groups = groups if design.within else [rows]
+    counts = [_arrangements(design.level[group]) for group in groups]
+    if math.prod(counts) <= most:
+        for choice in product(*(list(_all_orders(group, design.level)) for group in groups)):
+            order = rows.copy()
+            for group, chosen in zip(groups, choice, strict=True):
+                order[group] = chosen
+            yield order
+        return
+    random = np.random.default_rng(_SEED)
+    yield rows
+    same = len({len(group) for group in groups}) == 1
+    table = np.array(groups) if same else None
+    for _ in range(most - 1):
+        order = rows.copy()
+        if table is not None:
+            order[table.ravel()] = random.permuted(table, axis=1).ravel()
+        else:
+            for group in groups:
+                order[group] = random.permutation(group)
+        yield order
+
+
+def _arrangements(levels: NDArray[np.int64]) -> int:
+    _, counts = np.unique(levels, return_counts=True)
+    return math.factorial(len(levels)) // math.prod(math.factorial(int(n)) for n in counts)
+
+
+def _all_orders(group: NDArray[np.int64], level: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
+    """Orders of a group's rows, one for each way in which the levels may be given to the values."""
+    names, counts = np.unique(level[group], return_counts=True)
+    if len(group) == len(names):
+        yield from (np.array(order) for order in permutations(group.tolist()))
+        return
+    yield from _dealt(group, [(group[level[group] == name], int(n)) for name, n in zip(names, counts, strict=True)])
+
+
+def _dealt(group: NDArray[np.int64], places: Sequence[tuple[NDArray[np.int64], int]]) -> Iterator[NDArray[np.int64]]:
+    """Orders of a group whose rows are dealt to the places of each level."""
+    index = {int(row): i for i, row in enumerate(group)}
+
+    def deal(left: tuple[int, ...], depth: int) -> Iterator[dict[int, int]]:
+        if depth == len(places):
+            yield {}
+            return
+        own, count = places[depth]
+        for chosen in combinations(left, count):
+            rest = tuple(row for row in left if row not in chosen)
+            for more in deal(rest, depth + 1):
+                yield {**dict(zip(map(int, own), chosen, strict=True)), **more}
+
+    for dealt in deal(tuple(map(int, group)), 0):
+        order = group.copy()
+        for place, row in dealt.items():
+            order[index[place]] = row
+        yield order
