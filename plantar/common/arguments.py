@@ -12,7 +12,6 @@ from plantar.errors import InputError, PlantarError
 LARGEST = 1e100
 """Largest absolute value of a number that has to be finite: products of a few of them are finite too."""
 
-_SINGULAR = {"are": "is", "have": "has", "hold": "holds"}
 _Kind = TypeVar("_Kind")
 _Value = TypeVar("_Value")
 
@@ -30,9 +29,9 @@ def number(
     plain: float = value if kind is float or kind is np.float64 else _float(value, name, error)  # type: ignore[assignment]
     if not -LARGEST <= plain <= LARGEST:
         if plain != plain and not nan:
-            raise error(f"{does(name, 'are')} NaN; expected a number")
+            raise error(f"{name} is NaN; expected a number")
         if finite:
-            raise error(f"{does(name, 'are')} {plain}; expected a finite number")
+            raise error(f"{name} is {plain}; expected a finite number")
     return plain
 
 
@@ -63,7 +62,7 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
         whole = low - 1
     if isinstance(value, bool | np.bool_) or whole < low or (high is not None and whole > high):
         span = f"{low} or more" if high is None else f"{low} to {high}"
-        raise error(f"{does(name, 'are')} {_short(value)}; allowed: a whole number, {span}")
+        raise error(f"{name} is {_short(value)}; allowed: a whole number, {span}")
     return whole
 
 
@@ -76,7 +75,7 @@ def instance(value: _Kind, kind: type | UnionType, name: str, error: type[Planta
         plantar.errors.InputError: name is 3; expected a str
     """
     if not isinstance(value, kind):
-        raise error(f"{does(name, 'are')} {_short(value)}; expected a {getattr(kind, '__name__', 'path')}")
+        raise error(f"{name} is {_short(value)}; expected a {getattr(kind, '__name__', 'path')}")
     return value
 
 
@@ -90,19 +89,7 @@ def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputE
     try:
         return tuple(value)
     except TypeError:
-        raise error(f"{does(name, 'are')} {_short(value)}; expected a list") from None
-
-
-def does(name: str, verb: str) -> str:
-    """Subject and verb of an error, in agreement.
-
-    `name`: name of argument; a plural if it, or what precedes "of", ends in s; `verb`: "are", "have" or "hold".
-
-    Example:
-        >>> does("forces", "are"), does("polygon", "have"), does("mask of taxels", "hold")
-        ('forces are', 'polygon has', 'mask of taxels holds')
-    """
-    return f"{name} {verb if name.partition(' of ')[0].endswith('s') else _SINGULAR[verb]}"
+        raise error(f"{name} is {_short(value)}; expected a list") from None
 
 
 def _float(value: object, name: str, error: type[PlantarError]) -> float:
@@ -114,7 +101,7 @@ def _float(value: object, name: str, error: type[PlantarError]) -> float:
             return float(held)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise error(f"{does(name, 'are')} {_short(value)}; expected a number")
+    raise error(f"{name} is {_short(value)}; expected a number")
 
 
 def _short(value: object) -> str:

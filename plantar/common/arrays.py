@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.arguments import LARGEST, does
+from plantar.common.arguments import LARGEST
 from plantar.errors import InputError, PlantarError
 from plantar.kernels.base.limits import points_within, values_within
 from plantar.kernels.base.member import close_all
@@ -31,7 +31,7 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
         [1.0, 2.5]
         >>> numbers(["1", "2"], "forces")
         Traceback (most recent call last):
-        plantar.errors.InputError: forces are not numeric: text; expected real numbers
+        plantar.errors.InputError: forces: not numeric (text); expected real numbers
     """
     if type(value) is np.ndarray and value.dtype is _FLOAT:
         return value
@@ -50,7 +50,7 @@ def held_numbers(value: object, name: str, error: type[PlantarError] = InputErro
     given = _given(value, name, error)
     if given.dtype.kind not in "fiub":
         what = "None" if value is None else _KINDS.get(given.dtype.kind, str(given.dtype))
-        raise error(f"{does(name, 'are')} not numeric: {what}; expected real numbers")
+        raise error(f"{name}: not numeric ({what}); expected real numbers")
     return given
 
 
@@ -73,7 +73,7 @@ def array(
     """
     given = numbers(value, name, error)
     if not _fits(given.shape, shape):
-        raise error(f"{does(name, 'have')} shape {given.shape}; expected {_shape_text(shape)}")
+        raise error(f"{name}: shape {given.shape}; expected {_shape_text(shape)}")
     if finite and not is_finite(given):
         raise not_finite(given, name, error)
     return given
@@ -104,9 +104,9 @@ def integers(
     if given.shape == (0,) and len(shape) > 1:
         given = np.empty([0 if isinstance(s, str) or s is ... else s for s in shape], dtype=np.int64)  # type: ignore[misc]
     if given.dtype.kind not in "iu" or (given.dtype.kind == "u" and given.size and int(given.max()) >= 2**63):
-        raise error(f"{does(name, 'are')} not whole numbers of up to 64 bits")
+        raise error(f"{name}: not whole numbers of up to 64 bits")
     if not _fits(given.shape, shape):
-        raise error(f"{does(name, 'have')} shape {given.shape}; expected {_shape_text(shape)}")
+        raise error(f"{name}: shape {given.shape}; expected {_shape_text(shape)}")
     return np.asarray(given, dtype=np.int64)
 
 
@@ -124,10 +124,10 @@ def mask(
     given = value if type(value) is np.ndarray else _given(value, name, error)
     if given.dtype is not _BOOL:
         if given.size and (given.dtype.kind not in "iub" or not ((given == 0) | (given == 1)).all()):
-            raise error(f"{does(name, 'hold')} values that are neither true nor false")
+            raise error(f"{name}: holds values that are neither true nor false")
         given = given.astype(bool)
     if not _fits(given.shape, shape):
-        raise error(f"{does(name, 'have')} shape {given.shape}; expected {_shape_text(shape)}")
+        raise error(f"{name}: shape {given.shape}; expected {_shape_text(shape)}")
     return given
 
 
@@ -161,23 +161,21 @@ def not_finite(values: NDArray[np.float64], name: str, error: type[PlantarError]
 
     Example:
         >>> not_finite(np.array([np.nan]), "positions")
-        InputError('positions hold a value that is not finite')
+        InputError('positions: holds a value that is not finite')
     """
     if np.isfinite(values).all():
-        return error(f"{does(name, 'are')} as large as {np.abs(values).max():.3g}; allowed: up to {LARGEST:g}")
-    return error(f"{does(name, 'hold')} a value that is not finite")
+        return error(f"{name}: as large as {np.abs(values).max():.3g}; allowed: up to {LARGEST:g}")
+    return error(f"{name}: holds a value that is not finite")
 
 
 def _given(value: object, name: str, error: type[PlantarError]) -> NDArray[Any]:
     parts = value if isinstance(value, list | tuple) else (value,)
     if any(isinstance(part, np.ma.MaskedArray) and np.ma.is_masked(part) for part in parts):
-        raise error(f"{does(name, 'hold')} masked values; fill them first, with NaN where nothing was measured")
+        raise error(f"{name}: holds masked values; fill them first, with NaN where nothing was measured")
     try:
         return np.asarray(value)
     except (TypeError, ValueError, OverflowError):
-        raise error(
-            f"{does(name, 'are')} not an array: rows differ in length, or numpy does not know what it is"
-        ) from None
+        raise error(f"{name}: not an array: rows differ in length, or numpy does not know what it is") from None
 
 
 def _fits(shape: tuple[int, ...], wanted: tuple[object, ...]) -> bool:

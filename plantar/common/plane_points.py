@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.arguments import LARGEST, does
+from plantar.common.arguments import LARGEST
 from plantar.common.arrays import not_finite, numbers
 from plantar.errors import InputError
 from plantar.kernels.base.limits import are_plane_points, pair_of, points_within
@@ -26,7 +26,7 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
     if points.ndim != 2 or points.shape[1] != 2:
         if points.shape == (0,):
             return points.reshape(0, 2)
-        raise InputError(f"{does(name, 'have')} shape {points.shape}; expected (k, 2)")
+        raise InputError(f"{name}: shape {points.shape}; expected (k, 2)")
     if finite and not points_within(points, LARGEST):
         raise not_finite(points, name)
     return points
@@ -46,6 +46,6 @@ def plane_point(value: object, name: str = "point") -> tuple[float, float]:
         return pair
     given = numbers(value, name)
     if given.shape != (2,):
-        raise InputError(f"{does(name, 'have')} shape {given.shape}; expected (2,)")
+        raise InputError(f"{name}: shape {given.shape}; expected (2,)")
     x, y = given.tolist()
     return x, y

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.arguments import LARGEST, does, instance
+from plantar.common.arguments import LARGEST, instance
 from plantar.common.arrays import is_finite, mask, numbers
 from plantar.errors import PlantarError, ReadingError
 from plantar.layouts.layout import SoleLayout
@@ -50,4 +50,4 @@ def without_dead(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _misfit(layout: SoleLayout, shape: tuple[int, ...], name: str) -> PlantarError:
-    return ReadingError(f"{does(name, 'have')} shape {shape}; layout '{layout.name}' has {len(layout)} taxels")
+    return ReadingError(f"{name}: shape {shape}; layout '{layout.name}' has {len(layout)} taxels")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.arguments import does, instance, number
+from plantar.common.arguments import instance, number
 from plantar.common.arrays import array
 from plantar.common.gravity import GRAVITY
 from plantar.common.optional_library import missing_libraries
@@ -137,7 +137,7 @@ class RobotController:
         for name, count in (("joint_positions", len(self.joints)), ("gyro", 3), ("accelerometer", 3)):
             given = getattr(sensors, name)
             if array(given, name, (count,), finite=True) is not given or not given.flags.c_contiguous:
-                raise InputError(f"{does(name, 'are')} no contiguous array of float64; expected np.array(..., float)")
+                raise InputError(f"{name}: no contiguous array of float64; expected np.array(..., float)")
         for joint, angle in zip(map(self.legs.model.joint, self.joints), sensors.joint_positions, strict=True):
             low, high = np.add(joint.range, (-0.5, 0.5)) if self.legs.model.jnt_limited[joint.id] else (-np.inf, np.inf)
             if not low <= angle <= high:  # by more than an encoder's offset

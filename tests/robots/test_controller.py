@@ -80,14 +80,14 @@ def test_sensors_that_never_make_sense_are_waited_for_and_named(wrong):
     [
         ("time", lambda time: np.nan, "time is NaN"),
         ("joint_positions", np.degrees, r"for left_hip_roll; allowed: -0.7\d+ to 1.0\d+ rad, not degrees"),
-        ("joint_positions", lambda angles: angles * np.nan, "hold a value that is not finite"),
+        ("joint_positions", lambda angles: angles * np.nan, "holds a value that is not finite"),
         ("joint_positions", lambda angles: angles[:-1], r"shape \(11,\); expected \(12,\)"),
         ("joint_positions", lambda angles: angles.astype(np.float32), "no contiguous array of float64"),
         ("joint_positions", lambda angles: np.repeat(angles, 2)[::2], "no contiguous array of float64"),
-        ("gyro", lambda turn: turn[:2], r"gyro has shape \(2,\)"),
+        ("gyro", lambda turn: turn[:2], r"gyro: shape \(2,\)"),
         ("accelerometer", lambda pull: pull / 9.81, r"reads 1; allowed at the start: about 9.81 m/s\^2"),
-        ("readings", lambda soles: {"left": soles["left"]}, "forces of the right sole are not numeric: None"),
-        ("readings", lambda soles: soles | {"left": plantar.Reading(0.0, np.ones(7))}, r"left sole have shape \(7,\)"),
+        ("readings", lambda soles: {"left": soles["left"]}, "forces of the right sole: not numeric .None."),
+        ("readings", lambda soles: soles | {"left": plantar.Reading(0.0, np.ones(7))}, r"left sole: shape \(7,\)"),
         ("readings", lambda soles: soles | {"right": plantar.Reading(0.0, np.full(42, np.nan))}, "right sole hold no"),
     ],
 )

@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.common.arrays import array
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import choice, switch
 from plantar.common.settings.schema import number as number_setting
@@ -93,9 +92,10 @@ def target_dcms(
         offset: Push's u_w (2,) in m.
         omega: Pendulum's in rad/s.
     """
-    places = (place, "footstep"), (stance, "place of the stance foot"), (next_stride, "stride of the next step")
-    end, start, stride = (_pair(*place) for place in places)
-    push = _pair(offset, "VRP offset")
+    end = np.asarray(place, dtype=float)
+    start = np.asarray(stance, dtype=float)
+    stride = np.asarray(next_stride, dtype=float)
+    push = np.asarray(offset, dtype=float)
     ahead = stride * math.exp(-omega * max(next_duration, 0.0)) - push  # b_e
     if double_support <= 0.0:
         return TargetDcms(end + ahead, end + ahead, 1.0)
@@ -127,9 +127,9 @@ def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: A
     `dcm` (2,) in m; `target`: xi_s (2,) in m; `left` in s, at least `SHORTEST_TIME`; `offset`: push's u_w (2,) in m;
     `omega`: pendulum's in rad/s.
     """
-    now = _pair(dcm, "DCM")
-    goal = _pair(target, "target of the DCM")
-    push = _pair(offset, "VRP offset")
+    now = np.asarray(dcm, dtype=float)
+    goal = np.asarray(target, dtype=float)
+    push = np.asarray(offset, dtype=float)
     exponent = -omega * max(left, SHORTEST_TIME)
     kept = math.exp(exponent)
     gain = -1.0 / math.expm1(exponent)
@@ -158,13 +158,13 @@ def double_support_vrp(
         offset: Push's u_w (2,) in m.
         omega: Pendulum's in rad/s.
     """
-    now = _pair(dcm, "DCM")
-    goal = _pair(target, "target of the DCM")
-    rest = _pair(end, "end of the VRP") - _pair(offset, "VRP offset")
+    now = np.asarray(dcm, dtype=float)
+    goal = np.asarray(target, dtype=float)
+    rest = np.asarray(end, dtype=float) - np.asarray(offset, dtype=float)
     left = max(duration - begun, SHORTEST_TIME)
     kept = math.exp(-omega * left)
     gain = 1.0 / double_support_pull(omega, max(duration, left), left)
-    vrp = _pair(end, "end of the VRP") - (kept * (goal - rest) - (now - rest)) * gain
+    vrp = np.asarray(end, dtype=float) - (kept * (goal - rest) - (now - rest)) * gain
     return AnkleVrp(vrp, gain, Saturation.TIME if duration - begun < SHORTEST_TIME else Saturation.NONE)
 
 
@@ -195,7 +195,7 @@ def shrunk_support(
     `polygon`: S (k, 2), world, in m; `rules`: shares along and across the sole; `middle`: stance foot's (2,) in m,
     about which it shrinks; `yaw`: sole's heading in rad.
     """
-    about = _pair(middle, "middle")
+    about = np.asarray(middle, dtype=float)
     c = math.cos(yaw)
     s = math.sin(yaw)
     f = rules.forward
@@ -214,7 +214,3 @@ def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
     if nearest is None or (nearest[0] == wanted.vrp[0] and nearest[1] == wanted.vrp[1]):
         return wanted
     return AnkleVrp(nearest, wanted.gain, Saturation.SUPPORT)
-
-
-def _pair(value: ArrayLike, name: str) -> NDArray[np.float64]:
-    return array(value, name, (2,), finite=True)

@@ -11,8 +11,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.common.arguments import positive
-from plantar.common.arrays import array
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import fixed, share
 
@@ -44,10 +42,8 @@ class DcmFilter:
     """CoM and DCM from kinematic CoM, ZMP and measured push. `omega`: pendulum's in rad/s; `period` of control in s."""
 
     def __init__(self, rules: DcmFilterRules, omega: float, period: float) -> None:
-        w = positive(omega, "pendulum frequency", "rad/s")
-        tick = positive(period, "control period", "s")
-        c = math.cosh(w * tick)
-        s = math.sinh(w * tick)
+        c = math.cosh(omega * period)
+        s = math.sinh(omega * period)
         self._input = np.array([1.0 - c, 1.0 - c - s])  # of the VRP, on x and xi
         own = np.array([[c - s, s], [0.0, c + s]])
         count = 3 if rules.unfelt_rate > 0.0 else 2
@@ -58,7 +54,7 @@ class DcmFilter:
         noise += 1e-18 * np.eye(count)  # m^2: keeps the covariance regular
         if count == 3:
             self._step[:2, 2] = -self._input
-            noise[2, 2] = (rules.unfelt_rate * tick) ** 2
+            noise[2, 2] = (rules.unfelt_rate * period) ** 2
         self._gain = _stationary_gain(self._step, noise, np.eye(1, count), np.array([[rules.com_noise**2]]))
         self._state: NDArray[np.float64] | None = None
 
@@ -70,17 +66,16 @@ class DcmFilter:
         """Returns CoM and DCM after a tick; at first as measured, at rest.
 
         By the kinematic `com` (2,) in m, the `zmp` (2,) since the last tick in m, None without load, and the VRP's
-        `offset` u_w (2,) by the measured push in m (`plantar.mechanics.external_wrench.vrp_offset`). An InputError for
-        others.
+        `offset` u_w (2,) by the measured push in m (`plantar.mechanics.external_wrench.vrp_offset`).
         """
-        place = array(com, "CoM", (2,), finite=True)
-        felt = array(offset, "VRP offset", (2,), finite=True)
+        place = np.asarray(com, dtype=float)
+        felt = np.asarray(offset, dtype=float)
         if self._state is None:
             self._state = np.zeros((len(self._step), 2))
             self._state[:2] = place
             return self._told()
         # Without ground the only acceleration is that of the push: as with the ZMP under the CoM.
-        ground = self._state[0] if zmp is None else array(zmp, "ZMP", (2,), finite=True)
+        ground = self._state[0] if zmp is None else np.asarray(zmp, dtype=float)
         state = self._step @ self._state
         state[:2] += np.outer(self._input, ground - felt)
         state += self._gain * (place - state[0])

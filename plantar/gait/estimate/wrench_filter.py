@@ -10,11 +10,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.common.arguments import number, positive
-from plantar.common.arrays import array
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import share
-from plantar.errors import InputError
 
 MOST_OFFSET = 10.0
 """Largest expected offset in m that is handed on: far beyond what any step makes up for, and small enough that no
@@ -40,13 +37,11 @@ class WrenchFilter:
     """
 
     def __init__(self, rules: WrenchFilterRules, omega: float, period: float) -> None:
-        rate = positive(omega, "pendulum frequency", "rad/s")
-        tick = positive(period, "control period", "s")
-        self._omega = rate
+        self._omega = omega
         # Exact for an offset that is constant over a tick; K 19's alpha is its first order.
-        self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-tick / rules.time_constant)
+        self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-period / rules.time_constant)
         self._decay = 1.0 / rules.lasts
-        self._ended = max(self._share, -math.expm1(-tick / rules.lasts))
+        self._ended = max(self._share, -math.expm1(-period / rules.lasts))
         self._x = 0.0
         self._y = 0.0
 
@@ -62,9 +57,9 @@ class WrenchFilter:
 
     def update(self, offset: ArrayLike) -> NDArray[np.float64]:
         """Expected offset (2,) in m after a tick (K 19), by the VRP's measured u_w (2,), cut to `MOST_OFFSET`, zero
-        where not finite; InputError if misshaped.
+        where not finite.
         """
-        x, y = array(offset, "VRP offset", (2,)).tolist()
+        x, y = np.asarray(offset, dtype=float).tolist()
         size = math.hypot(x, y)
         if not math.isfinite(size):
             x = 0.0
@@ -83,12 +78,9 @@ class WrenchFilter:
 
     def mean(self, horizon: float) -> NDArray[np.float64]:
         """Constant offset (2,) in m that moves the DCM over `horizon` (s) as the expected one."""
-        time = number(horizon, "horizon", finite=True)
-        if time < 0.0:
-            raise InputError(f"horizon is {horizon} s; allowed: 0 or more")
         w = self._omega
         faster = self._omega + self._decay
-        if time == 0.0:
+        if horizon == 0.0:
             return self.expected
-        kept = (w / faster) * math.expm1(-faster * time) / math.expm1(-w * time)
+        kept = (w / faster) * math.expm1(-faster * horizon) / math.expm1(-w * horizon)
         return np.array((kept * self._x, kept * self._y))

@@ -10,9 +10,6 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.common.arguments import number as checked_number
-from plantar.common.arguments import positive
-from plantar.common.arrays import array
 from plantar.common.record import Record
 from plantar.common.settings.schema import number, whole
 from plantar.gait.feet.swing_flight import PolynomialSwing, SwingFlight
@@ -69,10 +66,10 @@ class SwingFit:
     """
 
     def __init__(self, rules: SwingFitRules, start: ArrayLike, period: float, height: float) -> None:
-        self._period = positive(period, "control period", "s")
+        self._period = period
         self._rules = rules
         self._height = height
-        self._start: NDArray[np.float64] = array(start, "start of the swing", (3,), finite=True).copy()
+        self._start: NDArray[np.float64] = np.array(start, dtype=float)
         self._state = np.array([self._start, np.zeros(3), np.zeros(3)])  # of the tick before
         self._falls = False
         n = rules.order
@@ -98,14 +95,12 @@ class SwingFit:
         `goal`: landing place (3,) in m; `elapsed`: T_c since lift-off in s; a control period more each call;
         `duration`: T_s from lift-off to touchdown in s. Returns desired motion.
         """
-        end = array(goal, "goal of the swing", (3,), finite=True)
-        now = checked_number(elapsed, "time since lift-off", finite=True)
-        lasts = checked_number(duration, "duration of the swing", finite=True)
-        if now >= lasts or lasts <= 0.0:
+        end = np.asarray(goal, dtype=float)
+        if elapsed >= duration or duration <= 0.0:
             self._state = np.array([end, np.zeros(3), np.zeros(3)])
         else:
-            found = self._fitted(end, now, lasts)
-            self._keep_monotone(found, end, now / lasts)
+            found = self._fitted(end, elapsed, duration)
+            self._keep_monotone(found, end, elapsed / duration)
             self._state = found
         return SwingPoint(*self._state.copy())
 

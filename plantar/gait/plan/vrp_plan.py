@@ -17,7 +17,6 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.common.arguments import positive
 from plantar.common.record import Record
 from plantar.errors import InputError
 from plantar.kernels.mechanics.pendulum import on_segment
@@ -63,7 +62,6 @@ class VrpPlan:
             raise InputError(f"a VRP plan needs k >= 2 times and (k, 2) points; got {knots.shape} and {points.shape}")
         if not (np.isfinite(knots).all() and np.isfinite(points).all() and (np.diff(knots) > 0.0).all()):
             raise InputError("a VRP plan needs finite points at strictly increasing finite times")
-        positive(omega, "pendulum frequency", "rad/s")
         segments = len(knots) - 1
         self._keep(knots, points, np.empty((segments, 2)), np.empty((segments, 2)), np.empty((segments + 1, 2)), omega)
         self.dcm_waypoints[-1] = points[-1]  # the plan ends at rest on its last VRP

@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import (
     AnkleRules,
     Saturation,
@@ -164,8 +163,3 @@ def test_the_support_shrinks_along_the_sole_and_across_it():
     turn, at = np.array([[c, s], [-s, c]]), np.array([0.4, 0.2])
     found = shrunk_support(at + sole @ turn, AnkleRules(), at, 0.3)
     assert found == pytest.approx(at + (sole * [0.5, 0.8]) @ turn)  # beta_x, beta_y of K Table 1
-
-
-def test_wrong_arguments_are_named():
-    with pytest.raises(InputError, match="target of the DCM"):
-        single_support_vrp([0.0, 0.0], [math.nan, 0.0], 0.5, [0.0, 0.0], 3.5)

@@ -77,12 +77,6 @@ def test_what_is_expected_decays_as_a_push_does_once_none_is_measured():
     assert slow.expected[0] == pytest.approx(after * math.exp(-PERIOD / 0.2), rel=1e-9)
 
 
-def test_wrong_arguments_are_named():
-    with pytest.raises(InputError, match="VRP offset"):
-        filled([0.0, 0.0, 0.0], 0.5)
-    with pytest.raises(InputError, match="horizon is -1"):
-        filled([0.0, 0.0], 0.5).mean(-1.0)
-    with pytest.raises(InputError, match="above 0"):
-        WrenchFilter(WrenchFilterRules(), 0.0, PERIOD)
+def test_wrong_rules_are_named():
     with pytest.raises(InputError, match="lasts"):
         WrenchFilterRules(lasts=0.0)

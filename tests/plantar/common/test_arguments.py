@@ -43,7 +43,7 @@ def test_whole_numbers_in_a_range(value):
 
 def test_things_in_a_row():
     assert items((p for p in "ab"), "poses") == ("a", "b")
-    with pytest.raises(InputError, match=r"^poses are None; expected a list$"):
+    with pytest.raises(InputError, match=r"^poses is None; expected a list$"):
         items(None, "poses")
 
 
@@ -61,12 +61,12 @@ def test_an_object_is_of_its_class():
         ("read", (None,), "recording is None; expected a path"),
         ("load_robot", (3,), "robot is 3; expected a path"),
         ("load_scene", (["flat"],), "expected a path"),
-        ("view", (None,), "recordings are None; expected a list"),
+        ("view", (None,), "recordings is None; expected a list"),
         ("run", ("flat", -1), "seed is -1; allowed: a whole number, 0 or more"),
         ("run", ("flat", 1.5), "seed is 1.5"),
         ("run", (None,), "scene is None; expected a path"),
         ("load_scene", ("flat", [3]), "setting 3 is not of the form key=value"),
-        ("load_controller", ("h1", [1]), "tables are a list; expected a Mapping"),
+        ("load_controller", ("h1", [1]), "tables is a list; expected a Mapping"),
     ],
 )
 def test_doors_refuse_what_is_no_path_or_seed(door, arguments, words):

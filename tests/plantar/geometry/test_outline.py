@@ -239,9 +239,9 @@ SQUARE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
         (SQUARE, None, [1.0], "whole numbers"),
         (SQUARE, [0, 4], [2.0], "areas of an outline are .2.; those of its rings are .1."),
         (SQUARE, [0, 4], [np.nan], "not finite"),
-        (SQUARE, [0, 4], 1.0, "areas of an outline have shape"),
+        (SQUARE, [0, 4], 1.0, "areas of an outline: shape"),
         ([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], [0, 3], [0.0], "areas"),
-        (np.zeros((4, 3)), [0, 4], [1.0], "points of an outline have shape"),
+        (np.zeros((4, 3)), [0, 4], [1.0], "points of an outline: shape"),
         ([*SQUARE[:3], [0.0, np.nan]], [0, 4], [1.0], "not finite"),
         (None, [0, 4], [1.0], "not numeric"),
         ([], [0, 4], [1.0], "offsets"),
@@ -290,7 +290,7 @@ def test_an_outline_keeps_what_it_is(sole):
 
 
 def test_rings_that_are_none_and_what_is_no_rotation_are_refused_by_name():
-    with pytest.raises(InputError, match="rings are None"):
+    with pytest.raises(InputError, match="rings is None"):
         Outline.of_rings(None)
     with pytest.raises(InputError, match="rotation"):
         Outline.of_rings([SQUARE]).moved(2.0 * np.eye(2), [0, 0])

@@ -18,7 +18,7 @@ def test_values_fit_the_layout(sole):
     assert taxel_values(sole, good) is taxel_frames(sole, good) is good
     assert taxel_frames(sole, np.zeros((0, n))).shape == (0, n)
     for take in (taxel_values, taxel_frames, taxel_mask):
-        with pytest.raises(ReadingError, match=f"^distances have shape .*; layout 'test sole' has {n} taxels$"):
+        with pytest.raises(ReadingError, match=f"^distances: shape .*; layout 'test sole' has {n} taxels$"):
             take(sole, np.zeros(n + 1, dtype=bool), "distances")
 
 

@@ -221,7 +221,7 @@ def test_many_and_rollout_are_what_single_readings_are(make_box):
         assert again.shape == (2, 3, len(feel), 3)
         assert np.allclose(again.reshape(one.shape), one, atol=1e-6)
     assert np.array_equal(feel.rollout(np.array(states), np.zeros((6, 0)))[0], again.reshape(one.shape))
-    with pytest.raises(InputError, match="states have shape"):
+    with pytest.raises(InputError, match="states: shape"):
         feel.rollout(np.zeros((2, 3)))
 
 

@@ -225,9 +225,9 @@ def test_no_member_is_a_way_to_the_sums_that_others_are_made_of(sole, name):
         ("reading", np.zeros(3), "reading is an array of shape .3,.; expected a Reading"),
         ("force_threshold", "1", "force threshold is '1'"),
         ("force_threshold", np.nan, "force threshold is NaN"),
-        ("options", {"fill": True}, "options are .*; expected a PerceptOptions"),
-        ("active", "all", "mask 'active' holds"),
-        ("stuck", [0, 4], "mask 'stuck' holds"),
+        ("options", {"fill": True}, "options is .*; expected a PerceptOptions"),
+        ("active", "all", "mask 'active': holds"),
+        ("stuck", [0, 4], "mask 'stuck': holds"),
     ],
 )
 def test_wrong_arguments_are_refused_by_name(sole, argument, value, text):
@@ -241,8 +241,8 @@ def test_wrong_arguments_are_refused_by_name(sole, argument, value, text):
     [
         ("fill", 1, "'fill' is 1; allowed: True or False"),
         ("proximity_gain", np.inf, "proximity gain is inf"),
-        ("contour_heights", 0.01, r"heights of contours have shape \(\)"),
-        ("contour_heights", ["low"], "heights of contours are not numeric"),
+        ("contour_heights", 0.01, r"heights of contours: shape \(\)"),
+        ("contour_heights", ["low"], "heights of contours: not numeric"),
         ("reference_area", 0.0, "allowed: a finite value above 0"),
     ],
 )

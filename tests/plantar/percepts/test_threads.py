@@ -85,7 +85,7 @@ def test_as_many_threads_work_as_are_asked_for(monkeypatch):
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, True, "2"])
 def test_a_number_of_threads_that_is_none(threads):
-    with pytest.raises(InputError, match=r"threads are .*; allowed: a whole number, 1 or more"):
+    with pytest.raises(InputError, match=r"threads is .*; allowed: a whole number, 1 or more"):
         batch.loads(SOLE, forces(2), threads=threads)
 
 

@@ -79,7 +79,7 @@ def test_a_wrench_that_is_not_known_has_no_zmp():
     [
         (lambda: zmp_of_feet([None], [1.0, 2.0]), "1 points and 2 vertical forces"),
         (lambda: zmp_of_feet([[0.0, 0.0]], [np.inf]), "not finite"),
-        (lambda: zmp_of_feet(None, [1.0]), "points are None"),
+        (lambda: zmp_of_feet(None, [1.0]), "points is None"),
         (lambda: zmp_of_feet([None], "a"), "vertical force is 'a'"),
     ],
 )
