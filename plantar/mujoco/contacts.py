@@ -28,12 +28,13 @@ class ContactReader:
         self._feet = tuple(FootContacts(mask) for mask in own)
         self._options = self._model.opt
         self._cone = self._options.cone
+        self._sticks = bool(getattr(self._model, "flg_adhesion", False))  # of geoms, since MuJoCo 4
         self._lists: dict[int, ContactList] = {}
 
     def read(self) -> tuple[FootContacts, ...]:
         """Each foot's contacts after the last `mj_step` or `mj_forward`, in reused objects."""
         data = self._data
-        n = self._data.ncon
+        n = data.ncon
         if not n:
             for foot in self._feet:
                 foot.clear()
@@ -47,8 +48,7 @@ class ContactReader:
             friction = c.friction if self._cone != _ELLIPTIC else None
             listed = ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)
             self._lists[n] = listed
-        sticks = getattr(self._model, "flg_adhesion", False)  # of geoms, since MuJoCo 4
-        gather_feet(self._feet, listed, _net_forces(data, self._cone) if sticks else data.efc_force)
+        gather_feet(self._feet, listed, _net_forces(data, self._cone) if self._sticks else data.efc_force)
         return self._feet
 
 

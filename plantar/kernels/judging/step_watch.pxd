@@ -1,6 +1,8 @@
 cimport cython
 from libc cimport math
 from ..contacts.ground_reaction cimport GroundReaction
+from ..contacts.foot_contacts cimport FootContacts
+from .applied_forces cimport AppliedForces
 from .joint_extremes cimport JointExtremes
 from .stance_force cimport StanceForce
 from .stance_force cimport StandWatch
@@ -13,6 +15,7 @@ cdef class StepWatch:
     cdef StandWatch stands
     cdef JointExtremes joints
     cdef StanceForce stance
+    cdef AppliedForces forces
     cdef const double[::1] upright, center, left, right, left_turn, right_turn
     cdef const double[:] legs
     cdef const int[:] warnings
@@ -26,7 +29,8 @@ cdef class StepWatch:
     cdef Py_ssize_t[::1] touched, landed
     cdef double[::1] impact, area
     cdef list rows, last
-    cpdef int step(self, tuple feet) except -1
+    @cython.locals(foot=Py_ssize_t, touching=FootContacts)
+    cpdef int step(self, tuple feet, Py_ssize_t contacts) except -1
     cdef int _land(self, Py_ssize_t foot) except -1
     @cython.locals(number=Py_ssize_t)
     cdef int _keep(self) except -1

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-__all__ = ["DIVERGED", "FALLING", "LEGS", "StepWatch"]
+__all__ = ["DIVERGED", "FALLING", "LEGS", "OTHERS", "OUTSIDE", "StepWatch"]
 
 LEGS = 4
 """What `StepWatch.step` adds where the legs touch each other; 1 and 2 stand for a left and a right foot that lands."""
@@ -14,6 +14,12 @@ FALLING = 8
 
 DIVERGED = 16
 """What it adds where the simulator warned that its state diverged."""
+
+OTHERS = 32
+"""What it adds where something touches that is no sole, or both soles touch each other."""
+
+OUTSIDE = 64
+"""What it adds where a force acts that is not known."""
 
 _INFINITE = float("inf")
 _ROUNDING = 1e-9  # of the cosine of a tilt: nearer than this to a fall, the judge computes the angle
@@ -25,7 +31,7 @@ class StepWatch:
     Attributes `up`: least cosine of torso's tilt; `margin`: least margin of ZMP in m; inf without a ZMP.
 
     Args:
-        reaction: `GroundReaction` of both feet; `stands`, `joints` and `stance` follow them.
+        reaction: `GroundReaction` of both feet; `stands`, `joints`, `stance` and `forces` follow them.
         upright: Rotation (9,) of torso, row by row.
         center: CoM (3,) in m.
         places: Left and right sole origins (3,) in m; `turns` their rotations (9,).
@@ -42,6 +48,7 @@ class StepWatch:
         stands,
         joints,
         stance,
+        forces,
         upright,
         center,
         places,
@@ -57,6 +64,7 @@ class StepWatch:
         self.stands = stands
         self.joints = joints
         self.stance = stance
+        self.forces = forces
         self.upright = upright
         self.center = center
         self.left, self.right = places
@@ -79,11 +87,11 @@ class StepWatch:
         self.rows = []
         self.last = [-1, -1]
 
-    def step(self, feet):
-        """Follow a physics step with the `FootContacts` of both feet.
+    def step(self, feet, contacts):
+        """Follow a physics step with the `FootContacts` of both feet, of so many `contacts` of all bodies.
 
-        Returns the sum of the judge's events: 1 for a left landing, 2 for a right one, `LEGS`, `FALLING` and
-        `DIVERGED`.
+        Returns the sum of the judge's events: 1 for a left landing, 2 for a right one, `LEGS`, `FALLING`, `DIVERGED`,
+        `OTHERS` and `OUTSIDE`.
         """
         self.now += 1
         self.reaction.update(feet)
@@ -96,6 +104,12 @@ class StepWatch:
                     seen += 1 + foot
                 self.touched[foot] = self.now
         self._follow()
+        for touching in feet:
+            contacts -= touching.size
+        if contacts != 0:
+            seen += 32
+        if self.forces.unknown():
+            seen += 64
         return seen + self._look()
 
     def _land(self, foot):

@@ -15,7 +15,7 @@ from plantar.common.sides import SIDES, other_side
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.kernels.contacts.ground_reaction import GroundReaction
 from plantar.kernels.judging.estimate_error import EstimateError
-from plantar.kernels.judging.step_watch import FALLING, LEGS, StepWatch
+from plantar.kernels.judging.step_watch import FALLING, LEGS, OTHERS, OUTSIDE, StepWatch
 from plantar.layouts.layout import Side
 from plantar.sim.judging.ground_pieces import GroundPieces
 from plantar.sim.judging.joint_limits import JointLimits
@@ -132,6 +132,7 @@ class Judge:
             self.steps.watch,
             self.joints.extremes,
             self.ripple.watch,
+            self.outside.forces,
             self._torso,
             self._center,
             self._places,
@@ -191,12 +192,15 @@ class Judge:
     def step(self) -> int:
         """Take in a physics step; returns what `StepWatch.step` reports."""
         feet = self._contacts.read()
-        seen: int = self._watch.step(feet)
-        self.outside.step()
-        self.others.step(feet)
+        self.outside.expect()
+        seen: int = self._watch.step(feet, self.world.data.ncon)
         if self.pieces is not None:
             self.pieces.loads.step(feet)
         if seen:
+            if seen & OUTSIDE:
+                self.outside.look()
+            if seen & OTHERS:
+                self.others.step()
             if seen & LEGS:
                 self.legs.step()
             for bit, side in enumerate(SIDES):

@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 
-from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.sim.judging.unmet import unmet
 from plantar.sim.model.world import World
 
@@ -27,11 +26,9 @@ class OtherContact:
         self.duration = 0.0
         self.first: tuple[float, str] | None = None
 
-    def step(self, feet: tuple[FootContacts, ...]) -> None:
-        """After each physics step, with the contacts of both `feet`."""
+    def step(self) -> None:
+        """After each physics step in which not all contacts are the soles'."""
         data = self._world.data
-        if data.ncon == sum(foot.size for foot in feet):
-            return  # all contacts are the soles'
         part = self._part(data.contact.geom)
         if part is None:
             return

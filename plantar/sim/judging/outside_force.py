@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.base.limits import points_within, values_within
+from plantar.kernels.judging.applied_forces import AppliedForces
 from plantar.sim.judging.unmet import unmet
 
 _ROUNDING = 1e-9  # N or N m: actors that share a body are added in another order
@@ -33,6 +33,7 @@ class OutsideForce:
         actors: Of the scene.
 
     Attributes:
+        forces: Kernel that compares.
         largest: Largest force or torque in N or N m of a body or joint that no actor applies.
         where: Body or joint that it acts on, and `since` when in s a first one did.
     """
@@ -42,28 +43,34 @@ class OutsideForce:
         self._data = data
         self._on_bodies = data.xfrc_applied
         self._on_joints = data.qfrc_applied
-        self._own = np.flatnonzero(model.body_rootid[model.dof_bodyid] == base)
+        self._own = np.flatnonzero(model.body_rootid[model.dof_bodyid] == base).astype(np.intp)
         self._actors = tuple(actors)
         self._known = np.zeros((model.nbody, 6))
+        self.forces = AppliedForces(self._on_bodies, self._known, self._on_joints, self._own, _ROUNDING)
         self.largest = 0.0
         self.since = 0.0
         self.where = ""
 
     def step(self) -> None:
         """After each physics step."""
-        forces = self._on_bodies
-        if self._actors:
-            self._known[:] = 0.0
-            for actor in self._actors:
-                actor.add_applied(self._known)
-            forces = np.subtract(forces, self._known, out=self._known)
-        if not points_within(forces, _ROUNDING):
-            body = int(np.abs(forces).max(axis=1).argmax())
-            self._found(float(np.abs(forces[body]).max()), self._model.body(body).name)
-        if not values_within(self._on_joints, _ROUNDING):
-            torques = np.abs(self._on_joints[self._own])
-            axis = int(torques.argmax())
-            self._found(float(torques[axis]), self._model.joint(self._model.dof_jntid[self._own[axis]]).name)
+        self.expect()
+        if self.forces.unknown():
+            self.look()
+
+    def expect(self) -> None:
+        """Add up what the actors apply in the present physics step, for `forces`."""
+        for actor in self._actors:
+            actor.add_applied(self._known)
+
+    def look(self) -> None:
+        """Keep what no actor applies, where `forces` found something unknown."""
+        forces = np.abs(self._on_bodies - self._known)
+        self._known[:] = 0.0
+        body = int(forces.max(axis=1).argmax())
+        self._found(float(forces[body].max()), self._model.body(body).name)
+        torques = np.abs(self._on_joints[self._own])
+        axis = int(torques.argmax())
+        self._found(float(torques[axis]), self._model.joint(self._model.dof_jntid[self._own[axis]]).name)
 
     def _found(self, size: float, where: str) -> None:
         if size <= _ROUNDING:  # what is no number is found, too

@@ -6,6 +6,7 @@ from plantar.common.sides import SIDES
 from plantar.gait.command import Command, Sensors
 from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.judging.judge import Judge, PlainGround
+from plantar.sim.judging.outside_force import Actor
 from plantar.sim.judging.recovery import Recovery
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.walk_goal import WalkGoal
@@ -55,13 +56,15 @@ class Judges:
             begin = goal.end(walker.controller.middles)
             self.speeds = VelocityTruth(world, walker.velocities, walker.settings.timing, begin)
         plain = PlainGround(ground, {s: layouts[s].outline for s in SIDES}, _AROUND * walker.body.leg)
+        pushers: tuple[Actor, ...] = (pusher,) if pusher.shoves else ()
+        actors = pushers if touch is None else (*pushers, touch.sensor)
         self.judge = Judge(
             world,
             walker.settings.com_height,
             goal,
             plain,
             scene.control.learn_strides,
-            actors=(pusher,) if touch is None else (pusher, touch.sensor),
+            actors=actors,
         )
         if any(criterion.of_pieces for criterion in scene.outcome.values()):
             self.judge.follow_pieces(ground)

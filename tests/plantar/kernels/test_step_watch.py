@@ -8,9 +8,9 @@ import pytest
 
 from plantar.kernels import python_form
 from plantar.kernels.contacts import foot_contacts, ground_reaction
-from plantar.kernels.judging import estimate_error, joint_extremes, stance_force, step_watch
+from plantar.kernels.judging import applied_forces, estimate_error, joint_extremes, stance_force, step_watch
 
-MODULES = (foot_contacts, ground_reaction, joint_extremes, stance_force, step_watch, estimate_error)
+MODULES = (foot_contacts, ground_reaction, joint_extremes, stance_force, applied_forces, step_watch, estimate_error)
 NAMES = tuple(module.__name__.split(".")[-1] for module in MODULES)
 COMPILED = SimpleNamespace(**dict(zip(NAMES, MODULES, strict=True)))
 PYTHON = SimpleNamespace(**{name: python_form(name) for name in NAMES})
@@ -131,11 +131,15 @@ class Follower:
         self.stands = forms.stance_force.StandWatch(100.0)
         joints = forms.joint_extremes.JointExtremes(*[np.zeros(1), np.zeros(1, dtype=np.intp), np.ones(1)] * 2)
         stance = forms.stance_force.StanceForce(self.reaction, self.center, 80.0, 9.81, 1e-3, (2, 5), 20.0, 2e-3)
+        self.events = np.random.default_rng([seed, 1])
+        self.applied, self.known = np.zeros((4, 6)), np.zeros((4, 6))
+        axes, own = np.zeros(3), np.array([0, 2])
         self.watch = forms.step_watch.StepWatch(
             self.reaction,
             self.stands,
             joints,
             stance,
+            forms.applied_forces.AppliedForces(self.applied, self.known, axes, own, 1e-9),
             self.upright,
             self.center,
             list(self.places),
@@ -161,9 +165,14 @@ class Follower:
                 foot.clear()
                 alone.clear()
         loads = [0.0 if up else load for (*_, load), up in zip(drawn, in_air, strict=True)]
-        seen = self.watch.step(tuple(foot for foot, _, _ in drawn))
+        feet, more = tuple(foot for foot, _, _ in drawn), int(self.events.choice([0, 0, 1]))
+        stood_for = bool(self.events.integers(2))
+        self.applied[2, 1], self.known[2, 1] = 3.0, 3.0 * stood_for
+        seen = self.watch.step(feet, sum(foot.size for foot in feet) + more)
         self.other.update(tuple(alone for _, alone, _ in drawn))
-        wanted = self.forms.step_watch.LEGS * int(self.legs[0])
+        wanted = self.forms.step_watch.LEGS * int(self.legs[0]) + self.forms.step_watch.OTHERS * more
+        if not stood_for:
+            wanted += self.forms.step_watch.OUTSIDE
         if self.upright[8] < TILTED or self.center[2] - self.places[:, 2].min() < LOWEST:
             wanted += self.forms.step_watch.FALLING
         for foot in range(2):
@@ -225,9 +234,30 @@ def test_a_state_that_diverged_is_reported(forms):
     run.center[2] = 0.8
     nobody = tuple(forms.foot_contacts.FootContacts(np.zeros(1, dtype=np.uint8)) for _ in range(2))
     run.warnings[4] = 3  # of something else
-    assert run.watch.step(nobody) == 0
+    assert run.watch.step(nobody, 0) == 0
     run.warnings[6] = 1
-    assert run.watch.step(nobody) == forms.step_watch.DIVERGED
+    assert run.watch.step(nobody, 0) == forms.step_watch.DIVERGED
+
+
+@FORMS
+@pytest.mark.parametrize("value", [3.0, -2e-9, math.nan, math.inf])
+def test_any_force_that_is_not_known_is_found(forms, value):
+    on_bodies, known, on_joints = np.zeros((5, 6)), np.zeros((5, 6)), np.zeros(7)
+    applied = forms.applied_forces.AppliedForces(on_bodies, known, on_joints, np.array([1, 4]), 1e-9)
+    assert not applied.unknown()
+    for place in np.ndindex(5, 6):
+        on_bodies[place] = value
+        assert applied.unknown()
+        if math.isfinite(value):
+            known[place] = value
+            assert not applied.unknown()
+            assert not known.any()  # what was known counts for one step
+            assert applied.unknown()
+        on_bodies[place] = 0.0
+    for axis in range(7):
+        on_joints[axis] = value
+        assert applied.unknown() == (axis in (1, 4))
+        on_joints[axis] = 0.0
 
 
 @FORMS

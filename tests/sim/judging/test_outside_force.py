@@ -92,7 +92,7 @@ def test_a_leg_that_touches_the_ground_is_found(height, part):
     mujoco.mj_forward(model, data)
     made = SimpleNamespace(model=model, data=data, torso=model.body("base").id, sole_geoms={}, period=0.002)
     others = OtherContact(made)
-    others.step(())
+    others.step()
     assert (others.first[1] if others.first else None) == part
     assert bool(others.reasons()) == (part is not None)
 
@@ -103,5 +103,5 @@ def test_a_sole_that_touches_the_ground_is_none_of_the_others():
     mujoco.mj_forward(model, data)
     sole = {"left": (model.geom("shank").id,)}
     others = OtherContact(SimpleNamespace(model=model, data=data, torso=1, sole_geoms=sole, period=0.002))
-    others.step(())
+    others.step()
     assert others.reasons() == []
