@@ -10,7 +10,6 @@ T), so `replanned` solves only new knots.
 """
 
 import math
-from bisect import bisect_right
 from collections.abc import Sequence
 from typing import Self
 
@@ -19,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.record import Record
 from plantar.errors import InputError
-from plantar.kernels.mechanics.pendulum import on_segment
+from plantar.kernels.mechanics.pendulum import PendulumCourse
 
 
 class LipReference(Record, frozen=True):
@@ -56,8 +55,8 @@ class VrpPlan:
     """
 
     def __init__(self, times: Sequence[float], vrps: ArrayLike, omega: float, com: ArrayLike | None = None) -> None:
-        knots = np.asarray(times, dtype=float)
-        points = np.asarray(vrps, dtype=float)
+        knots = np.ascontiguousarray(times, dtype=float)
+        points = np.ascontiguousarray(vrps, dtype=float)
         if knots.ndim != 1 or len(knots) < 2 or points.shape != (len(knots), 2):
             raise InputError(f"a VRP plan needs k >= 2 times and (k, 2) points; got {knots.shape} and {points.shape}")
         if not (np.isfinite(knots).all() and np.isfinite(points).all() and (np.diff(knots) > 0.0).all()):
@@ -110,18 +109,9 @@ class VrpPlan:
             array.flags.writeable = False  # handed out: a plan is changed by making another one
 
     def _start_com(self, com: NDArray[np.float64]) -> None:
-        self._com_offset: list[NDArray[np.float64]] = []  # B of each segment, as far as it was asked for
-        self._next_com = com  # at the start of the first segment that was not
-
-    def _offset_of_com(self, segment: int) -> NDArray[np.float64]:
-        """Forward pass: B of a segment."""
-        while len(self._com_offset) <= segment:
-            i = len(self._com_offset)
-            decay = math.exp(-self.omega * (self.times[i + 1] - self.times[i]))
-            offset = self._next_com - self.vrps[i] - 0.5 * decay * self._end_offset[i]
-            self._com_offset.append(offset)
-            self._next_com = self.vrps[i + 1] + 0.5 * self._end_offset[i] + decay * offset
-        return self._com_offset[segment]
+        self._course = PendulumCourse(
+            self.omega, self._times, self.vrps, self._rate, self._end_offset, (float(com[0]), float(com[1]))
+        )
 
     def replanned(
         self,
@@ -177,18 +167,10 @@ class VrpPlan:
 
     def at(self, time: float) -> LipReference:
         """VRP, DCM and CoM with rates at a `time` in s; first knot before, last VRP after."""
+        if time < self.times[-1]:
+            return LipReference(*self._course.at(time))
         omega = self.omega
-        if time >= self.times[-1]:
-            vrp = self.vrps[-1]
-            self._offset_of_com(len(self.times) - 2)
-            offset = math.exp(-omega * (time - self.times[-1])) * (self._next_com - vrp)
-            zero = np.zeros(2)
-            return LipReference(vrp, vrp, zero, vrp + offset, -omega * offset, omega * omega * offset)
-        time = max(time, self.times[0])
-        i = bisect_right(self.times, time) - 1
-        since = time - self.times[i]
-        until = self.times[i + 1] - time
-        ends = self._end_offset
-        rates = self._rate
-        offset = self._offset_of_com(i)
-        return LipReference(*on_segment(omega, since, until, i, self.vrps, rates, ends, offset))
+        vrp = self.vrps[-1]
+        offset = math.exp(-omega * (time - self.times[-1])) * (self._course.end() - vrp)
+        zero = np.zeros(2)
+        return LipReference(vrp, vrp, zero, vrp + offset, -omega * offset, omega * omega * offset)

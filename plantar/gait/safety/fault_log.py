@@ -1,7 +1,6 @@
 """What was measured and commanded before each fault, kept in memory until it is asked for."""
 
 import os
-from collections import deque
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -11,10 +10,10 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, Sensors
+from plantar.kernels.safety.tick_ring import TickRing
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.foxglove import log_message
 from plantar.recordings.recorder import Recorder
-from plantar.sensing.reading import Reading
 
 _BEFORE = 2.0  # s that are kept before a fault
 _MOST = 16  # faults that are kept with what came before them; of later ones the text is kept
@@ -26,15 +25,6 @@ class Fault(NamedTuple):
 
     time: float
     text: str
-
-
-class _Row(NamedTuple):
-    time: float
-    joints: NDArray[np.float64]
-    gyro: NDArray[np.float64]
-    accelerometer: NDArray[np.float64]
-    readings: Mapping[Side, Reading]
-    command: Command
 
 
 class FaultLog:
@@ -51,8 +41,10 @@ class FaultLog:
     def __init__(self, period: float, layouts: Mapping[Side, SoleLayout]) -> None:
         self._period = period
         self._layouts = layouts
-        self._rows: deque[_Row] = deque(maxlen=max(1, round(_BEFORE / period)))
-        self._kept: dict[float, _Row] = {}
+        self._most = max(1, round(_BEFORE / period))
+        self._ring = TickRing(0, ())
+        self._joints = -1
+        self._kept: dict[float, NDArray[np.float64]] = {}
         self._snapshots = 0
         self._ticks = 0
         self.faults: list[Fault] = []
@@ -63,20 +55,34 @@ class FaultLog:
         return self._ticks * self._period
 
     def add(self, sensors: Sensors, command: Command) -> None:
-        """Keep a tick; what is no array, as of `sensors` that are None, is left out."""
+        """Keep a tick's numbers; what is no array, as of `sensors` that are None, is left out."""
         self._ticks += 1
         try:
-            row = _Row(
-                self._ticks * self._period,
-                sensors.joint_positions.copy(),
-                sensors.gyro.copy(),
-                sensors.accelerometer.copy(),
-                sensors.readings,
-                command,
+            joints = sensors.joint_positions
+            if len(joints) != self._joints:
+                self._begin(len(joints))
+            readings = sensors.readings
+            phase = command.phase
+            feet = command.feet
+            fields = (
+                joints,
+                sensors.gyro,
+                sensors.accelerometer,
+                _force(readings, "left"),
+                _force(readings, "right"),
+                command.com,
+                feet["left"].position,
+                feet["right"].position,
             )
-        except AttributeError:
+        except (AttributeError, TypeError):
             return
-        self._rows.append(row)
+        self._ring.add(self._ticks * self._period, command.stiffness, phase.kind, phase.step, fields)
+
+    def _begin(self, joints: int) -> None:
+        """Forget all ticks, for those of another number of joints."""
+        self._joints = joints
+        sizes = (len(self._layouts[side]) for side in SIDES)
+        self._ring = TickRing(self._most, (joints, 3, 3, *sizes, 3, 3, 3))
 
     def note(self, text: str) -> None:
         """Keep a fault in words, with the ticks before it."""
@@ -85,7 +91,7 @@ class FaultLog:
         self.faults.append(Fault(self.time, text))
         if self._snapshots < _MOST:
             self._snapshots += 1
-            self._kept.update({row.time: row for row in self._rows})
+            self._kept.update({float(row[0]): row for row in self._ring.kept()})
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write an MCAP recording of the faults (`/log`) and what came before: `/skin`, `/joints`, `/imu`, `/command`.
@@ -94,35 +100,31 @@ class FaultLog:
             RecordingError: If it cannot be written.
         """
         rows = [self._kept[time] for time in sorted(self._kept)]
-        count = len(rows[-1].joints) if rows else 1
         sizes = {side: len(self._layouts[side]) for side in SIDES}
         about: dict[str, object] = {"faults": [[round(fault.time, 4), fault.text] for fault in self.faults]}
         with Recorder(Path(path), about, {side: self._layouts[side] for side in SIDES}) as recorder:
             skins = {side: recorder.channel(f"/skin/{side}", [("force", sizes[side])]) for side in SIDES}
-            joints = recorder.channel("/joints", [("position", count)])
+            joints = recorder.channel("/joints", [("position", max(1, self._joints))])
             imu = recorder.channel("/imu", [("gyro", 3), ("accelerometer", 3)])
             targets = [("com", 3), ("left", 3), ("right", 3), ("stiffness", 1), ("phase", 1), ("step", 1)]
             command = recorder.channel("/command", targets)
             log = recorder.message_channel("/log", "foxglove.Log")
             for fault in self.faults:
                 log.write(fault.time, log_message(fault.time, fault.text, "warning"))
+            ends = np.cumsum([4, self._joints, 3, 3, *sizes.values(), 3, 3, 3])
             for row in rows:
-                joints.write(row.time, _sized(row.joints, count))
-                imu.write(row.time, _sized(row.gyro, 3), _sized(row.accelerometer, 3))
-                for side, channel in skins.items():
-                    channel.write(row.time, _force(row.readings, side, sizes[side]))
-                given = row.command
-                feet = (given.feet[side].position for side in SIDES)
-                command.write(row.time, given.com, *feet, given.stiffness, given.phase.kind, given.phase.step)
+                if len(row) != ends[-1]:
+                    continue  # of another number of joints
+                time, stiffness, phase, step = row[:4].tolist()
+                angles, gyro, accelerometer, left, right, *places = np.split(row[4:], ends[1:-1] - 4)
+                joints.write(time, angles)
+                imu.write(time, gyro, accelerometer)
+                for channel, force in zip(skins.values(), (left, right), strict=True):
+                    channel.write(time, force)
+                command.write(time, *places, stiffness, phase, step)
 
 
-def _force(readings: object, side: Side, size: int) -> NDArray[np.float64]:
+def _force(readings: object, side: Side) -> object:
+    """Forces of a side's reading as they are; None where there is none."""
     reading = readings.get(side) if isinstance(readings, Mapping) else None
-    return _sized(getattr(reading, "force", None), size)
-
-
-def _sized(values: object, size: int) -> NDArray[np.float64]:
-    """Numbers (size,); NaN where there are others or another number."""
-    if isinstance(values, np.ndarray) and values.shape == (size,):
-        return values.astype(np.float64)
-    return np.full(size, np.nan)
+    return getattr(reading, "force", None)

@@ -14,3 +14,12 @@ cdef class MotionLoad:
     cpdef void move(self, velocity, acceleration) except *
     @cython.locals(carried=double, taken=double, about=double)
     cpdef void add(self, acceleration, double left, double couple_x, double couple_y, bint whole) except *
+
+@cython.final
+cdef class JointMotion:
+    cdef const double[::1] moved
+    cdef const Py_ssize_t[::1] rows
+    cdef double period, share
+    cdef readonly object velocity, acceleration
+    @cython.locals(speed=double)
+    cpdef void update(self) except *

@@ -1,8 +1,10 @@
 """Joint torques of a robot's motion, of the load that MuJoCo's inverse dynamics finds."""
 
+import numpy as np
+
 from ..base import memory
 
-__all__ = ["MotionLoad"]
+__all__ = ["JointMotion", "MotionLoad"]
 
 
 class MotionLoad:
@@ -56,3 +58,28 @@ class MotionLoad:
             taken = load[self.rows[6 + i]] + self.armature[i] * changes[6 + i]
             about = self.axes[axis, 0] * tx + self.axes[axis, 1] * ty + self.axes[axis, 2] * tz
             self.torques[i] += (taken if whole else carried * taken) - carried * about
+
+
+class JointMotion:
+    """Velocity and acceleration of base and joints, of solutions a period apart.
+
+    `moved`: velocities (nv,) of a solution since the last; `rows`: those (6 + k,) that count; `share` of a new
+    acceleration in the low pass. Attributes `velocity` (6 + k,) in m/s and rad/s; `acceleration` likewise, low-passed.
+    """
+
+    def __init__(self, moved, rows, period, share):
+        self.moved = moved
+        self.rows = rows
+        self.period = period
+        self.share = share
+        self.velocity = np.zeros(len(rows))
+        self.acceleration = np.zeros(len(rows))
+
+    def update(self):
+        """Take in the velocities of the last solution."""
+        velocity = memory.room(self.velocity)
+        acceleration = memory.room(self.acceleration)
+        for i in range(self.rows.shape[0]):
+            speed = self.moved[self.rows[i]]
+            acceleration[i] += self.share * ((speed - velocity[i]) / self.period - acceleration[i])
+            velocity[i] = speed

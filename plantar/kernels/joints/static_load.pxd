@@ -1,5 +1,6 @@
 cimport cython
 from ..base cimport pointers as memory
+from .task_step cimport PointRows
 
 @cython.final
 cdef class StaticLoad:
@@ -11,5 +12,6 @@ cdef class StaticLoad:
     cdef double[:, ::1] wrenches
     cdef readonly double[::1] load
     cpdef void weigh(self) noexcept
-    cpdef void less(self, share) except *
+    @cython.locals(rows="double[:, ::1]")
+    cpdef void less(self, PointRows lever, force, double x, double y, double z) except *
     cpdef void take(self) noexcept

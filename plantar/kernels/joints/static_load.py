@@ -62,11 +62,13 @@ class StaticLoad:
             odd = motions[v, 1] * wrenches[b, 1] + motions[v, 3] * wrenches[b, 3]
             self.load[v] = (even + odd) + (motions[v, 4] * wrenches[b, 4] + motions[v, 5] * wrenches[b, 5])
 
-    def less(self, share):
-        """Subtract loads (nv,) carried otherwise: a contiguous float64 array."""
-        numbers = memory.values(share)
+    def less(self, lever, force, x, y, z):
+        """Subtract what a force (3,) in N carries at a point (x, y, z) in m, which moves by the `PointRows` lever."""
+        numbers = memory.values(force)
+        lever.write(x, y, z)
+        rows = lever.jacobian
         for v in range(self.load.shape[0]):
-            self.load[v] -= numbers[v]
+            self.load[v] -= numbers[0] * rows[0, v] + numbers[1] * rows[1, v] + numbers[2] * rows[2, v]
 
     def take(self):
         """Write the loads of the joints."""

@@ -39,6 +39,7 @@ class LegModel:
     ) -> None:
         self.model = model
         self._data = mujoco.MjData(model)  # of the solution
+        self._configuration = read_only(self._data.qpos.view())
         self._probe = mujoco.MjData(model)  # of the measured posture, in the base frame
         self._probe.qpos[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
         ids = [model.joint(name).id for name in joints]
@@ -79,7 +80,7 @@ class LegModel:
             *(self._data.cinert, self._data.cdof, self._gravity),
             *(self._dof.astype(np.intp), self.torques),
         )
-        self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
+        self._levers = [(s, _lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
         self.rows = np.concatenate([np.arange(6), self._dof]).astype(np.intp)
         self._inertial = np.zeros(model.nv)
         data = self._data
@@ -143,6 +144,11 @@ class LegModel:
         self._probe.qpos[self._others] = joints
 
     @property
+    def live_configuration(self) -> NDArray[np.float64]:
+        """`configuration` without a copy, overwritten by the next `follow`."""
+        return self._configuration
+
+    @property
     def configuration(self) -> NDArray[np.float64]:
         """Configuration (nq,) of the last solution."""
         return np.array(self._data.qpos)
@@ -189,13 +195,10 @@ class LegModel:
         self.inverse.place()
         load = self._load
         load.weigh()
-        for side, lever, jacobian in self._levers:
+        for side, lever in self._levers:
             force = forces[side]
-            if force.item(2) <= 0.0:
-                continue
-            x, y, z = points[side]
-            lever.write(x, y, z)
-            load.less(force.dot(jacobian))
+            if force.item(2) > 0.0:
+                load.less(lever, force, *points[side])
         load.take()
 
     def add_motion(
@@ -225,6 +228,5 @@ class LegModel:
         self._motion.add(acceleration, left, weight * y, -weight * x, whole)
 
 
-def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:
-    jacobian = np.zeros((3, model.nv))
-    return PointRows(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]], jacobian), jacobian
+def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> PointRows:
+    return PointRows(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]], np.zeros((3, model.nv)))

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.command import Command
+from plantar.kernels.joints.motion_load import JointMotion
 from plantar.robots.kinematics.command_joints import carry_command
 from plantar.robots.kinematics.leg_model import LegModel
 
@@ -18,28 +19,32 @@ class PlannedMotion:
 
     `period`: control period in s; `beat`: time scale sqrt(leg / g) in s; `whole`: whether unloaded legs get what moves
     them (`LegModel.add_motion`). Attributes `velocity` of the last solution (6 + k,) in m/s and rad/s; 0 at the first;
-    `acceleration` (6 + k,), low-passed.
+    `acceleration` (6 + k,), low-passed; both
+    are overwritten by the next `update`.
     """
 
     def __init__(self, legs: LegModel, period: float, beat: float, whole: bool = False) -> None:
         self._legs = legs
         self._period = period
         self._whole = whole
-        self._share = -math.expm1(-period / (_SMOOTH * beat))
-        self._last: NDArray[np.float64] | None = None
-        self._moved = np.zeros(legs.model.nv)
-        self.velocity = np.zeros(len(legs.rows))
-        self.acceleration = np.zeros(len(legs.rows))
+        share = -math.expm1(-period / (_SMOOTH * beat))
+        model = legs.model
+        self._model = model
+        self._configuration = legs.live_configuration
+        self._last = np.zeros(model.nq)
+        self._begun = False
+        self._moved = np.zeros(model.nv)
+        self._motion = JointMotion(self._moved, legs.rows, period, share)
+        self.velocity: NDArray[np.float64] = self._motion.velocity
+        self.acceleration: NDArray[np.float64] = self._motion.acceleration
 
     def update(self) -> None:
         """Take in the legs' last solution."""
-        configuration = self._legs.configuration
-        if self._last is not None:
-            mujoco.mj_differentiatePos(self._legs.model, self._moved, self._period, self._last, configuration)
-            velocity = self._moved[self._legs.rows]
-            self.acceleration += self._share * ((velocity - self.velocity) / self._period - self.acceleration)
-            self.velocity = velocity
-        self._last = configuration
+        if self._begun:
+            mujoco.mj_differentiatePos(self._model, self._moved, self._period, self._last, self._configuration)
+            self._motion.update()
+        self._begun = True
+        self._last[:] = self._configuration
 
     def carry(self, command: Command) -> None:
         """Torques of the last solution under a `command`'s forces and of its motion: the legs' `torques`."""
@@ -47,10 +52,4 @@ class PlannedMotion:
         left = max(command.feet["left"].force.item(2), 0.0)
         right = max(command.feet["right"].force.item(2), 0.0)
         share = left / (left + right) if left + right > 0.0 else 0.5
-        self._legs.add_motion(
-            self.velocity,
-            self.acceleration,
-            share,
-            command.momentum,
-            self._whole,
-        )
+        self._legs.add_motion(self.velocity, self.acceleration, share, command.momentum, self._whole)

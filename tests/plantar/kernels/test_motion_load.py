@@ -34,3 +34,16 @@ def test_both_forms_are_the_formula(seed, whole):
         assert (speeds != 0.0).sum() == len(rows)  # others are left alone
         kernel.add(acceleration, left, bx, by, whole)
         np.testing.assert_allclose(torques, 1.0 + wanted, rtol=1e-12)
+
+
+def test_velocity_and_acceleration_of_solutions_are_those_of_a_low_pass():
+    rows, moved = np.array([4, 0, 2]), np.zeros(5)
+    forms = [m.JointMotion(moved, rows, 0.005, 0.3) for m in (motion_load, python_form("motion_load"))]
+    velocity, acceleration = np.zeros(3), np.zeros(3)
+    for moved[:] in np.random.default_rng(0).normal(size=(20, 5)):
+        acceleration += 0.3 * ((moved[rows] - velocity) / 0.005 - acceleration)
+        velocity = moved[rows]
+        for motion in forms:
+            motion.update()
+            assert np.array_equal(motion.velocity, velocity)
+            np.testing.assert_allclose(motion.acceleration, acceleration, rtol=1e-13)

@@ -4,25 +4,29 @@ import numpy as np
 import pytest
 
 from plantar.kernels import python_form
-from plantar.kernels.joints import static_load
+from plantar.kernels.joints import static_load, task_step
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_a_velocity_holds_the_weight_of_all_that_it_moves(seed):
     rng = np.random.default_rng(seed)
     parents = np.array([0, 0, 1, 2, 1, 0, 5])  # two trees; the world is body 0
-    bodies, places = np.array([1, 1, 2, 3, 4, 4, 6]), np.array([5, 2, 6])
+    bodies, places = np.array([1, 1, 2, 3, 4, 4, 6]), np.array([5, 2, 0])
     inertias, motions = rng.normal(size=(7, 10)), rng.normal(size=(7, 6))
-    gravity, share, torques = rng.normal(size=3), rng.normal(size=7), np.zeros(3)
+    gravity, force, torques = rng.normal(size=3), rng.normal(size=3), np.zeros(3)
     found = []
     for module in (static_load, python_form("static_load")):
         kernel = module.StaticLoad(parents, bodies, inertias, motions, gravity, places, torques)
         for _ in range(2):
             kernel.weigh()
         weights = np.array(kernel.load)
-        kernel.less(share)
+        center, jacobian = np.array([0.1, -0.2, 0.3]), np.zeros((3, 7))
+        tasks = task_step if module is static_load else python_form("task_step")
+        kernel.less(tasks.PointRows(np.array([2, 1, 0]), motions, center, jacobian), force, 0.5, 0.4, 0.2)
         kernel.take()
-        assert np.array_equal(torques, (weights - share)[places])
+        moved_by = motions[:3, 3:] + np.cross(motions[:3, :3], [0.5, 0.4, 0.2] - center)
+        share = np.concatenate([moved_by @ force, np.zeros(4)])
+        np.testing.assert_allclose(torques, (weights - share)[places], rtol=1e-12)
         found.append(weights)
     assert np.array_equal(*found)
     moved = {1: (1, 2, 3, 4), 2: (2, 3), 3: (3,), 4: (4,), 6: (6,)}

@@ -1,0 +1,33 @@
+"""The ring of the last ticks' numbers, against a list of all; both forms."""
+
+import numpy as np
+import pytest
+
+from plantar.kernels import python_form
+from plantar.kernels.safety import tick_ring
+
+FORMS = pytest.mark.parametrize("form", [tick_ring, python_form("tick_ring")], ids=["compiled", "python"])
+
+
+@FORMS
+@pytest.mark.parametrize("ticks", [0, 1, 6, 7, 8, 25])
+def test_the_last_ticks_are_kept_in_order(form, ticks):
+    rng, ring, rows = np.random.default_rng(ticks), form.TickRing(7, (3, 1)), []
+    for _ in range(ticks):
+        numbers, fields = rng.normal(size=4).tolist(), (rng.normal(size=3), rng.normal(size=1))
+        ring.add(*numbers, fields)
+        rows.append(np.concatenate([numbers, *fields]))
+    assert np.array_equal(ring.kept(), np.array(rows[-7:]).reshape(-1, 8))
+
+
+@FORMS
+def test_what_is_no_array_of_its_size_is_kept_as_nan(form):
+    given = [np.array([1, 2], dtype=np.int32), np.array([1.0, 2.0], dtype=np.float32), np.arange(4.0)[1::2] + 0.0]
+    others = [None, 3.0, [1.0, 2.0], np.zeros(3), np.zeros((2, 1)), np.array(["a", "b"]), np.zeros(2, dtype=complex)]
+    ring = form.TickRing(20, (2,))
+    for field in (*given, *others):
+        ring.add(0.0, 0.0, 0.0, 0.0, (field,))
+    found = ring.kept()[:, 4:]
+    assert np.array_equal(found[:3], [[1.0, 2.0], [1.0, 2.0], [1.0, 3.0]])
+    assert np.isnan(found[3:]).all()
+    assert len(found) == 10
