@@ -5,7 +5,6 @@ point at each loaded sole's center of pressure is at rest, which gives position.
 - p), or `dcm_filter`.
 """
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
@@ -158,16 +157,16 @@ class FloatingBaseEstimator:
             state,
             None if self.gyro_bias is None else self.gyro_bias.kernel,
             self.steady,
+            None if self.push is None else self.push.kernel,
+            (self.legs.share, self.omega**2 * self.legs.turning),
+            (_SAME_HEIGHT * gains.body.leg, min(1.0, self.period * _ANCHOR / gains.body.beat)),
         )
         self._begun = False
         self._posture = live_kinematics(self.kinematics)
         self._watched: Posture | None = None
         self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
         self.push_acceleration = np.zeros(2)
-        self._heights = [math.nan, math.nan]
-        self._same_height = _SAME_HEIGHT * gains.body.leg
         self._turning = self.omega**2 * self.legs.turning
-        self._share = min(1.0, self.period * _ANCHOR / gains.body.beat)
 
     def update(
         self,
@@ -196,34 +195,29 @@ class FloatingBaseEstimator:
             # The foot is in the air: all that it measures is drift, which is taken off the loads to come.
             share = min(1.0, self.period / self.gains.tare)
             self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
-        loads: dict[str, float] = {"left": self._carry(0, "left", soles), "right": self._carry(1, "right", soles)}
         base = self._base
-        self._watch(posture)
-        planned_x, planned_y = planned_acceleration.tolist()
-        swing_x, swing_y = swing.tolist()
-        mu = self.legs.share  # as `LegInertia.base_acceleration`, in plain numbers
-        base_x = (planned_x - mu * swing_x) / (1.0 - 2.0 * mu)
-        base_y = (planned_y - mu * swing_y) / (1.0 - 2.0 * mu)
+        left_sole = soles["left"]
+        right_sole = soles["right"]
+        tare = self._tare
+        loads: dict[str, float] = {
+            "left": base.load(0, left_sole.vertical_force, tare["left"], left_sole.position_cop_in_sole),
+            "right": base.load(1, right_sole.vertical_force, tare["right"], right_sole.position_cop_in_sole),
+        }
+        if posture is not self._watched:
+            self._watch(posture)
         if self._begun:
-            gyro_x, gyro_y, gyro_z = gyro.tolist()
-            x, y, z = accelerometer.tolist()
-            zmp = base.follow(gyro_x, gyro_y, gyro_z, x, y, z, base_x, base_y)
-            self._anchor(loads)
+            zmp = base.step(gyro, accelerometer, planned_acceleration, swing)
         else:
             self._begun = True
             # The robot stands still at the start, so the specific force is gravity alone.
             base.take()
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
             zmp = base.place()
-        swinging = self._turning * swing_x, self._turning * swing_y  # CoM acceleration off the ZMP's pendulum
+        base.settle(accelerometer, planned_acceleration, swing, felt)
         if self.push is not None:
-            measured_x, measured_y, _ = self._rotation.dot(accelerometer).tolist()
-            moved = measured_x - (base_x - planned_x), measured_y - (base_y - planned_y)
-            self.push_acceleration = self._pushed(self.push, moved, zmp, felt, swinging)
-        push_x, push_y = self.push_acceleration.tolist()
-        base.observe(push_x + swinging[0], push_y + swinging[1])
+            self.push_acceleration = self.push.acceleration if felt is None else felt
         if self.dcm_filter is not None:
-            self._filter(self.dcm_filter, posture, zmp, swinging)
+            self._filter(self.dcm_filter, posture, zmp, self._turning * swing)
         rotation, position, com, velocity, left, right, turn_left, turn_right = base.snapshot()
         return BaseState(
             rotation,
@@ -236,37 +230,6 @@ class FloatingBaseEstimator:
             {"left": turn_left, "right": turn_right},
         )
 
-    def _anchor(self, loads: Mapping[str, float]) -> None:
-        """Return the base to its feet's landing height; else step errors (tilt times length) add up."""
-        heights = self._heights
-        error = 0.0
-        total = 0.0
-        left, right = self._places[:, 2].tolist()
-        for i, side in enumerate(SIDES):
-            weight = loads[side] - self.gains.minimum_load
-            z = (left, right)[i]
-            if not weight > 0.0:
-                heights[i] = math.nan
-                continue
-            if math.isnan(heights[i]):
-                other = heights[1 - i]
-                rise = z - (right, left)[i]
-                heights[i] = z if math.isnan(other) else other if abs(rise) < self._same_height else other + rise
-            error = error + weight * (z - heights[i])
-            total = total + weight
-        if total > 0.0:
-            self._position[2] -= self._share * error / total
-
-    def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
-        """Pass a foot's load in N to the kernel; return it."""
-        sole = soles[side]
-        load = max(0.0, sole.vertical_force - self._tare[side])
-        point = sole.position_cop_in_sole
-        x, y = (0.0, 0.0) if point is None else point.tolist()
-        # Ground never pulls; what the tare leaves below zero is noise.
-        self._base.carry(index, load, point is not None, x, y)
-        return load
-
     def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
         """Reset to the known footholds after corrected kinematics; `joint_positions` (k,) in rad."""
         if not self._begun:
@@ -278,11 +241,10 @@ class FloatingBaseEstimator:
         self._base.rest()
 
     def _watch(self, posture: Posture) -> None:
-        if posture is not self._watched:
-            self._watched = posture
-            places = posture.positions
-            turns = posture.rotations
-            self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
+        self._watched = posture
+        places = posture.positions
+        turns = posture.rotations
+        self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
     def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
         """Level the base by a unit vector (3,) against gravity, over the known footholds."""
@@ -291,27 +253,10 @@ class FloatingBaseEstimator:
         if self.dcm_filter is not None:
             self.dcm_filter.reset()
 
-    def _pushed(
-        self,
-        push: PushEstimate,
-        moved: tuple[float, float],
-        zmp: NDArray[np.float64] | None,
-        felt: NDArray[np.float64] | None,
-        swinging: tuple[float, float],
-    ) -> NDArray[np.float64]:
-        pendulum = None
-        if zmp is not None:
-            x, y, _ = self._com.tolist()
-            zmp_x, zmp_y = zmp.tolist()
-            square = self.omega**2
-            pendulum = square * (x - zmp_x) + swinging[0], square * (y - zmp_y) + swinging[1]
-        estimated = push.update(moved, pendulum)
-        return estimated if felt is None else felt
-
     def _filter(
-        self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None, swinging: tuple[float, float]
+        self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None, swinging: NDArray[np.float64]
     ) -> None:
         com = self._position + self._rotation.dot(posture.com)
-        filtered = dcm_filter.update(com[:2], zmp, (self.push_acceleration + np.array(swinging)) / self.omega**2)
+        filtered = dcm_filter.update(com[:2], zmp, (self.push_acceleration + swinging) / self.omega**2)
         self._com[:2] = filtered.com
         self._velocity[:2] = self.omega * (filtered.dcm - filtered.com)

@@ -9,6 +9,7 @@ from plantar.common.arrays import read_only
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import share
 from plantar.kernels.base.vectors import vector2
+from plantar.kernels.gait.push_filter import PushFilter
 
 NO_PUSH = read_only(np.zeros(2))
 """What an estimate returns without a push."""
@@ -29,16 +30,26 @@ class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("s
 
 
 class PushEstimate:
-    """CoM acceleration by a push.
-
-    `period` of control in s. Attributes `disagreement` of the last tick, low-passed, (2,) in m/s^2, a push's or not.
-    """
+    """CoM acceleration by a push. `period` of control in s. Attributes `kernel`: what it is computed by."""
 
     def __init__(self, rules: PushRules, period: float) -> None:
-        self._rules = rules
-        self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-period / rules.time_constant)
-        self.disagreement = NO_PUSH
-        self.acts = False
+        share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-period / rules.time_constant)
+        self.kernel = PushFilter(share, rules.begins, rules.ends)
+
+    @property
+    def disagreement(self) -> NDArray[np.float64]:
+        """Of the last tick, low-passed, (2,) in m/s^2, a push's or not."""
+        return vector2(self.kernel.x, self.kernel.y)
+
+    @property
+    def acts(self) -> bool:
+        """Whether a push acts."""
+        return bool(self.kernel.acts)
+
+    @property
+    def acceleration(self) -> NDArray[np.float64]:
+        """CoM's (2,) in m/s^2 by a push now; zero without."""
+        return self.disagreement if self.kernel.acts else NO_PUSH
 
     def update(self, measured: tuple[float, float], pendulum: tuple[float, float] | None) -> NDArray[np.float64]:
         """Returns CoM acceleration (2,) in m/s^2 by a push after a tick; zero without.
@@ -47,12 +58,7 @@ class PushEstimate:
         None without load.
         """
         if pendulum is None:
-            self.disagreement = NO_PUSH
-            self.acts = False
-            return NO_PUSH
-        x, y = self.disagreement.tolist()
-        x += self._share * (measured[0] - pendulum[0] - x)
-        y += self._share * (measured[1] - pendulum[1] - y)
-        self.disagreement = vector2(x, y)
-        self.acts = math.hypot(x, y) > (self._rules.ends if self.acts else self._rules.begins)
-        return self.disagreement if self.acts else NO_PUSH
+            self.kernel.rest()
+        else:
+            self.kernel.update(*measured, *pendulum)
+        return self.acceleration

@@ -1,8 +1,10 @@
 cimport cython
 from libc cimport math
+from ..base cimport pointers as memory
 from ..base cimport vectors
 from ..mechanics cimport rotations
 from . cimport gyro_bias
+from .push_filter cimport PushFilter
 
 cdef double _NONE
 
@@ -26,6 +28,9 @@ cdef class FloatingBase:
     cdef const double[:, :] turn_left_now, turn_right_now
     cdef gyro_bias.GyroBias bias
     cdef gyro_bias.SteadyLoad steady
+    cdef PushFilter push
+    cdef double leg_share, leg_turning, same_height, anchored
+    cdef double[::1] heights
     cpdef void watch(
         self, const double[:] com, const double[:] left, const double[:] right, const double[:, :] turn_left,
         const double[:, :] turn_right
@@ -36,6 +41,14 @@ cdef class FloatingBase:
     ) except *
     cpdef void rest(self) except *
     cpdef void carry(self, Py_ssize_t side, double load, bint pressed, double x, double y) noexcept
+    @cython.locals(load=double)
+    cpdef double load(self, Py_ssize_t side, double force, double tare, cop) except? -1.0
+    @cython.locals(mu=double, x=double, y=double)
+    cpdef step(self, gyro, accelerometer, planned, swing)
+    @cython.locals(error=double, total=double, weight=double, z=double, other=double, rise=double)
+    cdef void _anchor(self) noexcept
+    @cython.locals(mu=double, x=double, y=double, square=double, turn="double[:, ::1]")
+    cpdef int settle(self, accelerometer, planned, swing, felt) except -1
     cpdef follow(
         self, double gyro_x, double gyro_y, double gyro_z, double specific_x, double specific_y, double specific_z,
         double planned_x, double planned_y

@@ -9,7 +9,7 @@ import numpy as np
 
 from plantar.errors import InputError
 
-from ..base import vectors
+from ..base import memory, vectors
 from ..mechanics import rotations
 
 __all__ = ["FloatingBase"]
@@ -31,9 +31,15 @@ class FloatingBase:
             turn (3,) in rad by still soles; in m and m/s.
         bias: `gyro_bias.GyroBias`; None disables bias correction.
         steady: `SteadyLoad` that selects feet; None for all loaded.
+        push: `PushFilter`; None disables it.
+        legs: Share of the CoM's acceleration, and of the pendulum's, that a swinging foot's gives (`LegInertia`).
+        anchor: Largest difference in m between footholds of one height, and share of the way to its feet's heights
+            that the base goes in a tick.
     """
 
-    def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
+    def __init__(
+        self, omega, period, gravity, gains, state, bias=None, steady=None, push=None, legs=(0.0, 0.0), anchor=(0.0, 0.0)
+    ):
         self.omega = omega
         self.period = period
         self.gravity = gravity
@@ -42,6 +48,10 @@ class FloatingBase:
         self.places, self.turns, self.zmp, self.stood = state[4:]
         self.bias = bias
         self.steady = steady
+        self.push = push
+        self.leg_share, self.leg_turning = legs
+        self.same_height, self.anchored = anchor
+        self.heights = np.full(2, _NONE)
         self.samples = 0
         self.astray = 0.0
         self.headings = np.full(2, _NONE)
@@ -121,6 +131,95 @@ class FloatingBase:
         self.pressed[side] = pressed
         self.cops[side, 0] = x
         self.cops[side, 1] = y
+
+    def load(self, side, force, tare, cop):
+        """`carry` by a vertical `force` in N less its `tare`, and `cop` (2,) in sole frame in m or None; returns the
+        load in N: ground never pulls; what the tare leaves below zero is noise.
+        """
+        load = max(0.0, force - tare)
+        self.loads[side] = load
+        self.pressed[side] = cop is not None
+        self.cops[side, 0] = 0.0
+        self.cops[side, 1] = 0.0
+        if cop is not None:
+            point = memory.values(cop)
+            self.cops[side, 0] = point[0]
+            self.cops[side, 1] = point[1]
+        return load
+
+    def step(self, gyro, accelerometer, planned, swing):
+        """`follow` by arrays, less what the swinging foot takes, and return to the feet's height; returns the ZMP.
+
+        `gyro` (3,) in rad/s and `accelerometer` (3,) in m/s^2, base frame; `planned` CoM acceleration (2,) and the
+        `swing` foot's (2,) in m/s^2.
+        """
+        rate = memory.values(gyro)
+        force = memory.values(accelerometer)
+        com = memory.values(planned)
+        foot = memory.values(swing)
+        mu = self.leg_share
+        x = (com[0] - mu * foot[0]) / (1.0 - 2.0 * mu)
+        y = (com[1] - mu * foot[1]) / (1.0 - 2.0 * mu)
+        zmp = self.follow(rate[0], rate[1], rate[2], force[0], force[1], force[2], x, y)
+        self._anchor()
+        return zmp
+
+    def _anchor(self):
+        """Return the base to its feet's landing height; else step errors (tilt times length) add up."""
+        heights = self.heights
+        error = 0.0
+        total = 0.0
+        for side in range(2):
+            weight = self.loads[side] - self.minimum_load
+            z = self.places[side, 2]
+            if not weight > 0.0:
+                heights[side] = _NONE
+                continue
+            if math.isnan(heights[side]):
+                other = heights[1 - side]
+                rise = z - self.places[1 - side, 2]
+                if math.isnan(other):
+                    heights[side] = z
+                else:
+                    heights[side] = other if abs(rise) < self.same_height else other + rise
+            error = error + weight * (z - heights[side])
+            total = total + weight
+        if total > 0.0:
+            self.position[2] -= self.anchored * error / total
+
+    def settle(self, accelerometer, planned, swing, felt):
+        """Compare base and pendulum for a push, and `observe` with it, or with a `felt` one (2,) in m/s^2, or None;
+        other arguments as of `step`.
+        """
+        force = memory.values(accelerometer)
+        com = memory.values(planned)
+        foot = memory.values(swing)
+        mu = self.leg_share
+        x = self.leg_turning * foot[0]
+        y = self.leg_turning * foot[1]
+        push = self.push
+        if push is not None:
+            if math.isnan(self.zmp[0]):
+                push.rest()
+            else:
+                turn = self.rotation
+                square = self.omega * self.omega
+                push.update(
+                    turn[0, 0] * force[0] + turn[0, 1] * force[1] + turn[0, 2] * force[2]
+                    - ((com[0] - mu * foot[0]) / (1.0 - 2.0 * mu) - com[0]),
+                    turn[1, 0] * force[0] + turn[1, 1] * force[1] + turn[1, 2] * force[2]
+                    - ((com[1] - mu * foot[1]) / (1.0 - 2.0 * mu) - com[1]),
+                    square * (self.com[0] - self.zmp[0]) + x,
+                    square * (self.com[1] - self.zmp[1]) + y,
+                )  # fmt: skip
+            if felt is not None:
+                pushed = memory.values(felt)
+                x = pushed[0] + x
+                y = pushed[1] + y
+            elif push.acts:
+                x = push.x + x
+                y = push.y + y
+        self.observe(x, y)
 
     def follow(self, gyro_x, gyro_y, gyro_z, specific_x, specific_y, specific_z, planned_x, planned_y):
         """Read this tick's posture, and turn and move the base; returns the ZMP as `place`.

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from plantar import InputError, kernels
-from plantar.kernels.gait import floating_base, gyro_bias
+from plantar.kernels.gait import floating_base, gyro_bias, push_filter
 from plantar.kernels.mechanics import rotations
 from plantar.mechanics.rotation import heading, orthonormalised, rotation_from_vector, sine_vector
 from plantar.mechanics.zmp import zmp_of_feet
@@ -244,3 +244,60 @@ def test_rotations_are_those_of_scipy(size):
         np.testing.assert_allclose(again, r @ r, **EXACT)
         module.orthonormalise(r + 1e-6 * w, work, again)
         np.testing.assert_allclose(again, orthonormalised(r + 1e-6 * w), **EXACT)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_whole_tick_is_its_parts(seed):
+    """`load`, `step` and `settle` against `carry`, `follow`, the feet's heights, a low pass and `observe`."""
+    mu, turning, same, share = 0.07, 0.3, 0.4, 0.02
+    forms = (floating_base, SOURCES["floating_base"])
+    filters = (push_filter, kernels.python_form("push_filter"))
+    pushes = [module.PushFilter(0.4, 0.15, 0.05) for module in filters]
+    made = [
+        base_of(form, None, None, push, (mu, turning), (same, share))
+        for form, push in zip(forms, pushes, strict=True)
+    ]
+    plain, state = base_of(floating_base)
+    low, acts, heights = np.zeros(2), False, [math.nan, math.nan]
+    rng, acted = np.random.default_rng([seed, 1]), set()
+    for posture, gyro, specific, planned, loads, cops, _, _ in ticks(seed):
+        plan, swing = np.zeros(2) if planned is None else planned, rng.normal(size=2)
+        felt = rng.normal(size=2) if rng.random() < 0.2 else None
+        base_acceleration = (plan - mu * swing) / (1.0 - 2.0 * mu)
+        tare = 5.0 * rng.random()
+        carried = [max(0.0, load - tare) for load in loads]
+        take(plain, posture, carried, [np.zeros(2) if cop is None else cop for cop in cops])
+        for side, cop in enumerate(cops):
+            if cop is None:
+                plain.carry(side, carried[side], False, 0.0, 0.0)
+        zmp = plain.follow(*gyro, *specific, *base_acceleration)
+        error, total = 0.0, 0.0
+        for side in range(2):
+            weight, z = carried[side] - LEAST, state[4][side, 2]
+            if weight <= 0.0:
+                heights[side] = math.nan
+                continue
+            if math.isnan(heights[side]):
+                other, rise = heights[1 - side], z - state[4][1 - side, 2]
+                heights[side] = z if math.isnan(other) else other if abs(rise) < same else other + rise
+            error, total = error + weight * (z - heights[side]), total + weight
+        state[1][2] -= share * error / total if total > 0.0 else 0.0
+        if zmp is None:
+            low, acts = np.zeros(2), False
+        else:
+            pendulum = OMEGA**2 * (state[2][:2] - zmp) + turning * swing
+            low = low + 0.4 * ((state[0] @ specific)[:2] - (base_acceleration - plan) - pendulum - low)
+            acts = math.hypot(*low) > (0.05 if acts else 0.15)
+        acted.add(acts)
+        plain.observe(*(turning * swing + (felt if felt is not None else acts * low)))
+        for (base, own), push in zip(made, pushes, strict=True):
+            base.watch(*posture)
+            assert [base.load(i, loads[i], tare, cops[i]) for i in range(2)] == carried
+            found = base.step(gyro, specific, plan, swing)
+            base.settle(specific, plan, swing, felt)
+            assert (found is None) == (zmp is None)
+            assert push.acts == acts
+            np.testing.assert_allclose([push.x, push.y], low, **EXACT)
+            for mine, wanted in zip(own, state, strict=True):
+                np.testing.assert_allclose(mine, wanted, **EXACT)
+    assert acted == {False, True}
