@@ -24,7 +24,7 @@ from plantar.gait.balance.ankle_strategy import (
     target_dcms,
     within_support,
 )
-from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
 from plantar.gait.estimate.wrench_filter import WrenchFilter, WrenchFilterRules
 from plantar.gait.feet.swing_fit import SwingFit, SwingFitRules

@@ -4,7 +4,7 @@ import numpy as np
 
 from plantar.common.sides import SIDES
 from plantar.errors import PlantarError
-from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from plantar.common.record import Record
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.contact.ground_map import GroundView
-from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_flight import PolynomialSwing

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.record import Record
 from plantar.errors import InputError
-from plantar.kernels.mechanics.pendulum import PendulumCourse
+from plantar.kernels.mechanics.pendulum import PendulumCourse, sums
 
 
 class LipReference(Record, frozen=True):
@@ -37,14 +37,7 @@ class LipReference(Record, frozen=True):
 
     def plus(self, shift: Self) -> Self:
         """This plan plus the DCM and CoM of another VRP."""
-        return type(self)(
-            self.vrp,
-            self.dcm + shift.dcm,
-            self.dcm_velocity + shift.dcm_velocity,
-            self.com + shift.com,
-            self.com_velocity + shift.com_velocity,
-            self.com_acceleration + shift.com_acceleration,
-        )
+        return type(self)(self.vrp, *sums(self, shift))
 
 
 class VrpPlan:

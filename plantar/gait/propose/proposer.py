@@ -16,7 +16,7 @@ from plantar.common.arrays import read_only
 from plantar.common.record import Record
 from plantar.common.sides import Side
 from plantar.gait.contact.foot_contacts import FootholdFound, FootholdSeen
-from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase

@@ -10,7 +10,8 @@ from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.com_height import CoMHeight
 from plantar.gait.plan.phases import Phase
 from plantar.gait.tick.footing import Footing
-from plantar.kernels.base.vectors import matrix, vector
+from plantar.kernels.base.vectors import vector
+from plantar.kernels.gait.leaning_torso import leaning_torso
 
 _ROUND = 0.2  # of the way aside over which the lean ends
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
@@ -46,34 +47,23 @@ class BodyTargets:
         """
         settings = self._settings
         footholds = self._footing.motion.footholds
-        lx, ly, _ = footholds["left"][0].tolist()
-        rx, ry, _ = footholds["right"][0].tolist()
-        x, y, _ = com.tolist()
-        c = math.cos(torso)
-        d = math.sin(torso)
-        dx = x - 0.5 * (lx + rx)
-        dy = y - 0.5 * (ly + ry)
-        left = -d * dx + c * dy
-        # Rounded where it ends: a kink would jerk the trunk.
-        reach = settings.lean_reach
-        aside = abs(left)
-        over = min(max(aside - 0.95 * reach, 0.0), _ROUND * reach)
-        aside = min(aside, (0.95 + _ROUND) * reach) - over * over / (2.0 * _ROUND * reach)
-        roll = -max(settings.trunk_lean, lean) * math.copysign(aside, left)
-        e = math.cos(roll)
-        f = math.sin(roll)
-        return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
+        lean = max(settings.trunk_lean, lean)
+        left = footholds["left"][0]
+        right = footholds["right"][0]
+        return leaning_torso(com, left, right, torso, settings.lean_reach, lean, _ROUND)
 
     def _com_height(self, phase: Phase) -> float:
         """Height in m over the stance foot, blended in double support, higher over partial footholds."""
         footing = self._footing
+        motion = footing.motion
         rise = self._settings.partial_rise
-        heights = {side: footing.motion.footholds[side][0].item(2) for side in SIDES}
-        target = 0.5 * (heights["left"] + heights["right"])
-        if phase.stance is not None:
-            target = heights[phase.stance]
+        stance = phase.stance
+        if stance is None:
+            target = 0.5 * (motion.footholds["left"][0].item(2) + motion.footholds["right"][0].item(2))
+        else:
+            target = motion.footholds[stance][0].item(2)
             # A leg that steps down has to reach the ground: the body comes down before its foot.
-            target -= min(max(0.0, target - footing.motion.comes_to), self._settings.spare_crouch)
-        if rise and any(footing.contacts.partial(side) for side in SIDES):
+            target -= min(max(0.0, target - motion.comes_to), self._settings.spare_crouch)
+        if rise and (footing.contacts.partial("left") or footing.contacts.partial("right")):
             target += rise
         return self._ground.update(target) + self._settings.com_height

@@ -1,6 +1,5 @@
 """Feet: loads and yielding, by the balance law."""
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -14,7 +13,6 @@ from plantar.gait.estimate.estimator import SoleLoad
 from plantar.gait.plan.phases import Phase
 from plantar.gait.tick.footing import Footing
 from plantar.geometry.inscribed import safe_rectangle
-from plantar.kernels.base.vectors import vector
 from plantar.kernels.gait import lean_correction
 from plantar.kernels.gait.sole_admittance import risen, turned
 from plantar.mechanics.base_state import BaseState
@@ -85,19 +83,16 @@ class FootTargets:
 
         `com`: commanded (3,) in m; `torso`: commanded heading in rad; `posture`: commanded torso rotation (3, 3).
         """
-        side = self._footing.motion.last_side
-        frame = self._footing.frame
-        compensation = self._footing.compensation
+        footing = self._footing
+        side = footing.motion.last_side
         if side is None:
             return
+        frame = footing.frame
+        compensation = footing.compensation
         foot = feet[side]
-        if phase.swing != side or not self._footing.motion.landed:
-            x, y, z = frame.to_world(foot.position).tolist()
-            cx, cy, _ = state.com.tolist()
+        if phase.swing != side or not footing.motion.landed:
             # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
-            c = math.cos(frame.turn)
-            s = math.sin(frame.turn)
-            aligned = vector(cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z)
+            aligned = frame.aligned(foot.position, state.com)
             measured = lean_correction.headed(state.rotation_base_to_world, torso)
             compensation.update(phase.swing == side, foot.position, aligned, com, state.com, posture, measured)
         # A foot that has landed before its support's end keeps its correction: one that followed the body as it leans

@@ -14,7 +14,7 @@ from plantar.gait.balance.dcm_regulation import phase_goal, regulated_vrp
 from plantar.gait.contact.ankle_limits import AnkleLimits
 from plantar.gait.contact.foot_contacts import FootContacts
 from plantar.gait.controller_settings import ControllerSettings
-from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.estimate.estimator import SoleLoad
 from plantar.gait.estimate.push_estimate import NO_PUSH
 from plantar.gait.estimate.sole_slope import SoleSlope

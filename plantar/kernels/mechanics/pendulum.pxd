@@ -1,5 +1,6 @@
 cimport cython
 from libc cimport math
+from ..base cimport pointers as memory
 from ..base cimport vectors
 
 @cython.final
@@ -18,3 +19,6 @@ cdef class PendulumCourse:
     cpdef object end(self)
     @cython.locals(i=Py_ssize_t, decay=double, x=double, y=double)
     cdef void _start(self, Py_ssize_t count) noexcept
+
+cpdef tuple sums(one, other)
+cdef object _sum(one, other)

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from ..base import vectors
+from ..base import memory, vectors
 
-__all__ = ["PendulumCourse"]
+__all__ = ["PendulumCourse", "sums"]
 
 
 class PendulumCourse:
@@ -81,3 +81,20 @@ class PendulumCourse:
             self.com_x = self.vrps[i + 1, 0] + 0.5 * self.growths[i, 0] + decay * x
             self.com_y = self.vrps[i + 1, 1] + 0.5 * self.growths[i, 1] + decay * y
             self.known += 1
+
+
+def sums(one, other):
+    """DCM and rate, CoM, first and second rate (2,) of two `LipReference` together, new arrays."""
+    return (
+        _sum(one.dcm, other.dcm),
+        _sum(one.dcm_velocity, other.dcm_velocity),
+        _sum(one.com, other.com),
+        _sum(one.com_velocity, other.com_velocity),
+        _sum(one.com_acceleration, other.com_acceleration),
+    )
+
+
+def _sum(one, other):
+    a = memory.values(one)
+    b = memory.values(other)
+    return vectors.vector2(a[0] + b[0], a[1] + b[1])

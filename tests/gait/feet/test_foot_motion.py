@@ -9,7 +9,7 @@ import pytest
 
 from plantar import Percept, Reading, hex_layout
 from plantar.gait.contact.ground_map import GroundMapSettings
-from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import FootMotion, SoleSense
 from plantar.gait.feet.landing import Landing

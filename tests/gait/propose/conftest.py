@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plantar.common.sides import SIDES
-from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing
