@@ -24,7 +24,6 @@ from plantar.gait.balance.ankle_strategy import (
     target_dcms,
     within_support,
 )
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
 from plantar.gait.estimate.wrench_filter import WrenchFilter, WrenchFilterRules
 from plantar.gait.feet.swing_fit import SwingFit, SwingFitRules
@@ -36,6 +35,7 @@ from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
 from plantar.gait.propose.proposer import Pendulum, Tick
 from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.mechanics.external_wrench import vrp_offset
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from plantar.sensing.net_wrench import NetWrenchRules, net_wrench

@@ -4,13 +4,13 @@ import numpy as np
 
 from plantar.common.sides import SIDES
 from plantar.errors import PlantarError
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.proposer import Priority, Proposer, Tick
+from plantar.kernels.gait.command_frame import CommandFrame
 
 _OMEGA = 3.5  # rad/s of a pendulum 0.8 m high
 _STEPS = 6

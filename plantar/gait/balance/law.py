@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from plantar.common.record import Record
 from plantar.common.sides import Side
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import LipReference
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.mechanics.contact import Contact
 
 

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from plantar.common.record import Record
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.contact.ground_map import GroundView
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.feet.landing import Landing
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_flight import PolynomialSwing
@@ -18,6 +17,7 @@ from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.kernels.base.vectors import close, vector, vector2
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept

@@ -16,13 +16,13 @@ from plantar.common.arrays import read_only
 from plantar.common.record import Record
 from plantar.common.sides import Side
 from plantar.gait.contact.foot_contacts import FootholdFound, FootholdSeen
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.gait.plan.walk_plan import PlanView
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.kernels.geometry import convex
 from plantar.sensing.reading import Reading
 

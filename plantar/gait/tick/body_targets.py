@@ -50,7 +50,8 @@ class BodyTargets:
         lean = max(settings.trunk_lean, lean)
         left = footholds["left"][0]
         right = footholds["right"][0]
-        return leaning_torso(com, left, right, torso, settings.lean_reach, lean, _ROUND)
+        turn: NDArray[np.float64] = leaning_torso(com, left, right, torso, settings.lean_reach, lean, _ROUND)
+        return turn
 
     def _com_height(self, phase: Phase) -> float:
         """Height in m over the stance foot, blended in double support, higher over partial footholds."""

@@ -14,7 +14,6 @@ from plantar.gait.balance.dcm_regulation import phase_goal, regulated_vrp
 from plantar.gait.contact.ankle_limits import AnkleLimits
 from plantar.gait.contact.foot_contacts import FootContacts
 from plantar.gait.controller_settings import ControllerSettings
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.estimate.estimator import SoleLoad
 from plantar.gait.estimate.push_estimate import NO_PUSH
 from plantar.gait.estimate.sole_slope import SoleSlope
@@ -33,6 +32,7 @@ from plantar.gait.propose.foothold_refused import StepGuard
 from plantar.gait.propose.proposer import Pendulum, Tick
 from plantar.gait.tick.estimation import Estimation, Sensed
 from plantar.kernels.base.vectors import vector
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import heading

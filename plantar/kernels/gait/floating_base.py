@@ -38,7 +38,17 @@ class FloatingBase:
     """
 
     def __init__(
-        self, omega, period, gravity, gains, state, bias=None, steady=None, push=None, legs=(0.0, 0.0), anchor=(0.0, 0.0)
+        self,
+        omega,
+        period,
+        gravity,
+        gains,
+        state,
+        bias=None,
+        steady=None,
+        push=None,
+        legs=(0.0, 0.0),
+        anchor=(0.0, 0.0),
     ):
         self.omega = omega
         self.period = period

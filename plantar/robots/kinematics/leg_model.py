@@ -39,7 +39,7 @@ class LegModel:
     ) -> None:
         self.model = model
         self._data = mujoco.MjData(model)  # of the solution
-        self._configuration = read_only(self._data.qpos.view())
+        self._configuration: NDArray[np.float64] = read_only(self._data.qpos.view())
         self._probe = mujoco.MjData(model)  # of the measured posture, in the base frame
         self._probe.qpos[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
         ids = [model.joint(name).id for name in joints]

@@ -7,8 +7,8 @@ from plantar.common.gravity import GRAVITY
 from plantar.errors import InputError
 from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
 from plantar.gait.balance.law import Feet, FootState
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import VrpPlan
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.wrench_cone import Rectangle

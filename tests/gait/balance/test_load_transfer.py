@@ -6,8 +6,8 @@ import pytest
 from plantar.common.sides import Side
 from plantar.gait.balance.law import BalanceState, Feet, FootState
 from plantar.gait.balance.load_transfer import OpenLoop, transferred
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import VrpPlan
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import level_rotation
 

@@ -11,8 +11,8 @@ from plantar.gait.balance.balance_laws import balance_gains, balance_law
 from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
 from plantar.gait.balance.law import Feet, FootAction, FootState
 from plantar.gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains, _share
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import LipReference
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
 from plantar.mechanics.wrench_distribution import DistributionState

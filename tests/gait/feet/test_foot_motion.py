@@ -9,7 +9,6 @@ import pytest
 
 from plantar import Percept, Reading, hex_layout
 from plantar.gait.contact.ground_map import GroundMapSettings
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import FootMotion, SoleSense
 from plantar.gait.feet.landing import Landing
@@ -17,6 +16,7 @@ from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.feet.swing_fit import SwingFitRules
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
+from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.layouts.layout import Side
 
 PERIOD = 0.005

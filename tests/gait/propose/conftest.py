@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from plantar.common.sides import SIDES
-from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Timing
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.proposer import Tick
+from plantar.kernels.gait.command_frame import CommandFrame
 
 OMEGA = 3.5
 MIDDLES = {side: np.array([0.02, 0.0]) for side in SIDES}

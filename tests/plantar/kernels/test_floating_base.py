@@ -254,8 +254,7 @@ def test_a_whole_tick_is_its_parts(seed):
     filters = (push_filter, kernels.python_form("push_filter"))
     pushes = [module.PushFilter(0.4, 0.15, 0.05) for module in filters]
     made = [
-        base_of(form, None, None, push, (mu, turning), (same, share))
-        for form, push in zip(forms, pushes, strict=True)
+        base_of(form, None, None, push, (mu, turning), (same, share)) for form, push in zip(forms, pushes, strict=True)
     ]
     plain, state = base_of(floating_base)
     low, acts, heights = np.zeros(2), False, [math.nan, math.nan]
