@@ -1,7 +1,7 @@
 """A plantar skin in a MuJoCo model, read from simulation data."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from threading import Lock
 from typing import Any
@@ -15,15 +15,20 @@ from plantar.common.arrays import array
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
+from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.contacts import ContactReader
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
+from plantar.sensing.link_skin import SkinPatch
 from plantar.sensing.reading import Reading
 
 _LIFT = 0.02  # m inside the body at which proximity rays begin
 _PASSED = 20  # surfaces of its own that a ray passes at most
+LoadMaker = Callable[[], PatchLoad]
+"""Makes the kernel of a patch that wraps."""
+
 _MOST_DATA = 64  # whose contacts it keeps in view, and so in memory, unless more are read at once
 
 
@@ -58,7 +63,8 @@ class BoundSkin:
     """A skin in a model, made by `Skin.bind`; reading leaves the simulation unchanged.
 
     Attributes:
-        layout: The sole, n taxels.
+        layout: The sole, n taxels; a `SkinPatch` in the patch's frame if taxels look to all sides.
+        rings: Corners (k, 3) of each taxel's cell in m, sole frame.
         body: Id of body.
         geom_ids: Ids of geoms that can touch.
         position_in_body: Sole origin (3,) in the body's frame in m.
@@ -70,7 +76,7 @@ class BoundSkin:
     def __init__(
         self,
         model: Any,
-        layout: SoleLayout,
+        layout: SoleLayout | SkinPatch,
         body: int,
         geom_ids: Sequence[int],
         position: NDArray[np.float64],
@@ -78,6 +84,8 @@ class BoundSkin:
         *,
         reach: float,
         proximity: float | None,
+        make_load: LoadMaker | None = None,
+        rings: Sequence[NDArray[np.float64]] = (),
     ) -> None:
         self.model = model
         self.layout = layout
@@ -88,9 +96,13 @@ class BoundSkin:
         self.reach = reach
         self._range = proximity
         self._nearest = _least_gaps(model, body).tolist()
+        self.make_load = make_load
         axes = layout.rotations[:, :, 2]
+        self.rings = list(rings) or [layout.vertices[list(c)] for c in layout.corners]  # type: ignore[union-attr]
+        flat = 2 if make_load is None else 3
         widths = [
-            float(np.hypot(*(layout.cell_polygon(i) - layout.positions[i, :2]).T).max()) for i in range(len(layout))
+            float(np.linalg.norm(ring[:, :flat] - place[:flat], axis=1).max())
+            for ring, place in zip(self.rings, layout.positions, strict=True)
         ]
         self.static = (
             np.array(layout.positions),
@@ -117,8 +129,33 @@ class BoundSkin:
             now = load.forces.copy(), near, load.vectors.copy(), load.wrench.copy(), load.depths.copy(), load.carried
         return _made(data.time, *now)
 
+    @property
+    def is_patch(self) -> bool:
+        """Whether it wraps, and reads only what touches it."""
+        return self.make_load is not None
+
+    @property
+    def patch(self) -> SkinPatch:
+        """The taxels in the frame of their body, as `plantar.wholebody` takes them."""
+        layout = self.layout
+        level = layout.force_threshold
+        return SkinPatch(
+            name=layout.name,
+            link=self.model.body(self.body).name,
+            positions=layout.positions @ self.rotation_to_body.T + self.position_in_body,
+            rotations=self.rotation_to_body @ layout.rotations,
+            areas=layout.areas,
+            force_threshold=level,
+            proximity_range=self._range or 0.0,
+        )
+
     def percept(self, data: Any) -> Percept:
-        """The skin's reading as a `plantar.Percept`."""
+        """The skin's reading as a `plantar.Percept`; InputError for a patch whose taxels look to all sides."""
+        if not isinstance(self.layout, SoleLayout):
+            raise InputError(
+                f"the skin of body '{self.layout.link}' looks to all sides: it has no percept of a sole; "
+                "allowed: a patch with outward and within below 84 deg"
+            )
         return Percept(self.layout, self(data))
 
     def pose(self, data: Any) -> SolePose:
@@ -242,7 +279,7 @@ class _View:
         self.data = data
         self.lock = Lock()
         self._reader = ContactReader(skin.model, data, (skin.geom_ids,))
-        self._load = TaxelLoad(*skin.static)
+        self._load: Any = TaxelLoad(*skin.static) if skin.make_load is None else skin.make_load()
         self._seen = ContactsInSole()
         self._reach = skin.reach
         self._place = data.xpos[skin.body]
@@ -253,8 +290,8 @@ class _View:
         self.rotation = np.eye(3)
         self._seen.look_from(self.origin, self.rotation)
 
-    def load(self) -> TaxelLoad:
-        """The taxels' load now; always the same object."""
+    def load(self) -> Any:
+        """The taxels' load now, a `TaxelLoad` or `PatchLoad`; always the same object."""
         foot: FootContacts = self._reader.read()[0]
         np.dot(self._turn, self._rotation, self.rotation)
         np.dot(self._turn, self._position, self.origin)

@@ -1,4 +1,4 @@
-"""Taxels, center of pressure and support polygon drawn into a MuJoCo scene."""
+"""Taxels, and a sole's center of pressure and support polygon, drawn into a MuJoCo scene."""
 
 from typing import Any
 
@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.arguments import number
+from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.percepts.percept import Percept
 
@@ -35,14 +36,16 @@ def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = No
     turn = pose.rotation_sole_to_world
     top = max(float(reading.force.max(initial=0.0)), 1e-9) if full is None else number(full, "full force", finite=True)
     start = scene.ngeom
-    out = np.array([0.0, 0.0, -lift])
     kinds = mujoco.mjtGeom
-    for place, force, area in zip(feel.layout.positions, reading.force, feel.layout.areas, strict=True):
+    cells = feel.layout
+    for place, frame, force, area in zip(cells.positions, cells.rotations, reading.force, cells.areas, strict=True):
         share = min(force / top, 1.0)
         size = [0.45 * float(np.sqrt(area))] * 2 + [3e-4]
         color = (1.0 - share) * _UNLOADED + share * _LOADED
-        _add(scene, kinds.mjGEOM_CYLINDER, size, pose.to_world(place + out), turn, color)
-    ring = Percept(feel.layout, reading).support_polygon_in_sole
+        _add(scene, kinds.mjGEOM_CYLINDER, size, pose.to_world(place - lift * frame[:, 2]), turn @ frame, color)
+    if feel.is_patch or not isinstance(cells, SoleLayout):
+        return int(scene.ngeom - start)
+    ring = Percept(cells, reading).support_polygon_in_sole
     for first, second in zip(ring, np.roll(ring, -1, axis=0), strict=True):
         line = _add(scene, kinds.mjGEOM_CAPSULE, np.zeros(3), np.zeros(3), np.eye(3), _EDGE)
         if line is not None:

@@ -19,11 +19,12 @@ from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.source_pose import SourcePose
 from plantar.layouts.tiling import hex_layout
-from plantar.mujoco.bound_skin import BoundSkin
+from plantar.mujoco.bound_skin import BoundSkin, LoadMaker
 from plantar.mujoco.contacts import REACH
 from plantar.mujoco.named_id import named_id
 from plantar.mujoco.quaternions import quaternion_of
-from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape
+from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape, unit_vector
+from plantar.mujoco.wrapped_skin import WrappedSkin, body_surfaces, wrapped_skin
 
 _CELL_AREA = 691e-6  # m^2, of the papers' soles
 _CELLS = 30  # at least so many of a sole that is fitted
@@ -37,20 +38,31 @@ _NEAR = 0.004  # m: how far a site may be from the face
 
 
 class Skin:
-    """A plantar skin for a body of any MuJoCo model.
+    """A skin for a body of any MuJoCo model: a sole, or a patch that wraps.
 
-    The sole's face is the lowest of the body's collision shapes in the reference pose (first keyframe, or `qpos0`). Its
-    origin and axes are those of the pose that the layout states in this body's frame; else its origin lies below the
-    body's, and x is the world's.
+    Without a direction or region it is a sole: the lowest face of the body's collision shapes in the reference pose
+    (first keyframe, or `qpos0`). Its origin and axes are those of the pose that the layout states in this body's frame;
+    else its origin lies below the body's, and x is the body's own axis that is nearest the world's. It reads all
+    contacts of the body.
+
+    With `outward`, `around`, `region` or `polygon`, and no layout or site, it is a patch on the surface of the body's
+    geoms: the part of which all given conditions hold. Each contact goes to the cells about its own point; what does
+    not touch the patch is not read.
 
     Args:
         layout: Layout, or path of its file; None fits hexagons to the body.
         body: Name of body, for example "left_ankle_roll_link".
         geoms: Names of geoms that can touch; None for all colliding ones of body and fixed parts.
         site: Site that is the sole frame; checked against shapes.
-        outward: Direction (3,) of sole, body frame; None for down in reference pose.
-        forward: Forward (3,), body frame; None for the world's x.
-        cell_area: Of a fitted cell in m^2; None for 691 mm^2, or a thirtieth of a small sole.
+        outward: Direction (3,) of sole, body frame; None for down in reference pose. Of a patch: its normals turn from
+            it by at most `within`; its frame's z is into the body.
+        forward: Forward (3,), body frame; None for the body's own axis (of a sole: that is nearest the world's x).
+        within: Largest angle in degrees of a patch's normals to `outward`.
+        around: Axis (3,), body frame, that a patch goes round: its normals are 45 degrees or more from it.
+        region: Low and high corner (2, 3) in m of a box in the body's frame, that a patch lies in.
+        polygon: Drawn outline (m, 2) in m of a patch as seen along `outward`, in its frame's x and y about the body's
+            origin.
+        cell_area: Of a fitted cell in m^2; None for 691 mm^2, or a thirtieth of a small sole or patch.
         partial: Whether a layout may cover a small part.
         proximity: Range in m of proximity sensors; None for none.
         reach: Gap in m up to which an unloaded contact counts as near.
@@ -68,6 +80,10 @@ class Skin:
         site: str | None = None,
         outward: ArrayLike | None = None,
         forward: ArrayLike | None = None,
+        within: float = 60.0,
+        around: ArrayLike | None = None,
+        region: ArrayLike | None = None,
+        polygon: ArrayLike | None = None,
         cell_area: float | None = None,
         partial: bool = False,
         proximity: float | None = None,
@@ -85,6 +101,11 @@ class Skin:
         self.site = site
         self.outward = outward
         self.forward = forward
+        self.within = number(within, "within", finite=True)
+        self.around = around
+        self.region = region
+        self.polygon = polygon
+        self._check_patch()
         self.partial = partial
         self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
         self.proximity = None if proximity is None else positive(proximity, "proximity range", "m")
@@ -92,22 +113,45 @@ class Skin:
         if self.reach < 0.0:
             raise InputError(f"reach is {reach} m; allowed: 0 or more")
 
+    @property
+    def wraps(self) -> bool:
+        """Whether it is a patch on the body's surface, not a sole."""
+        chosen = self.outward is not None and self.layout is None and self.site is None
+        return chosen or any(v is not None for v in (self.around, self.region, self.polygon))
+
+    def _check_patch(self) -> None:
+        given = [n for n in ("around", "region", "polygon") if getattr(self, n) is not None]
+        fixed = [n for n in ("layout", "site") if getattr(self, n) is not None]
+        if given and fixed:
+            raise InputError(f"a skin with {fixed[0]} is a sole, which has no {given[0]}; allowed: one of the two")
+        if self.polygon is not None and self.outward is None:
+            raise InputError("a drawn polygon needs outward=(x, y, z), the direction that it is drawn against")
+        if not 0.0 < self.within <= 180.0:
+            raise InputError(f"within is {self.within:g} deg; allowed: above 0 and up to 180")
+
     def edit(self, spec: Any) -> None:
-        """Add a site "BODY_skin" at the sole frame to an uncompiled `mujoco.MjSpec`.
+        """Add a site "BODY_skin" at the sole frame to an uncompiled `mujoco.MjSpec`; of a second skin "BODY_skin_2".
 
         Raises:
             InputError: If that is no `MjSpec`.
             RobotError: As `bind`, or if it has that site.
         """
         model = instance(spec, mujoco.MjSpec, "spec").copy().compile()
-        _, shape = self._place(model)
-        if mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, f"{self.body}_skin") >= 0:
-            raise RobotError(f"the model has a site '{self.body}_skin' already; edit it once")
+        position, rotation = self._frame(model)
+        quaternion = quaternion_of(rotation)
+        name = f"{self.body}_skin"
+        count = 1
+        while (site := mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, name)) >= 0:
+            turned = min(np.abs(model.site_quat[site] - s * quaternion).max() for s in (1.0, -1.0))
+            if max(np.abs(model.site_pos[site] - position).max(), turned) < 1e-9:
+                raise RobotError(f"the model has a site '{name}' there already; edit it once")
+            count += 1
+            name = f"{self.body}_skin_{count}"
         body = next(b for b in spec.bodies if b.name == self.body)
         site = body.add_site(
-            name=f"{self.body}_skin",
-            pos=shape.position,
-            quat=quaternion_of(shape.rotation),
+            name=name,
+            pos=position,
+            quat=quaternion,
             size=[0.005] * 3,
             group=4,
         )
@@ -123,6 +167,8 @@ class Skin:
             RobotError: If body, geom, site or shape is missing, or layout or site does not fit: turned, tilted, upside
                 down, scaled, mirrored, another body's.
         """
+        if self.wraps:
+            return self._bind_patch(model)
         geoms, shape = self._place(model)
         body = named_id(model, "body", self.body)
         layout = self.layout or self._fitted(model, body, shape)
@@ -132,7 +178,83 @@ class Skin:
             model, layout, body, geoms, shape.position, shape.rotation, reach=self.reach, proximity=self.proximity
         )
 
+    def show(self, model: Any, path: str | os.PathLike[str] | None = None) -> Any:
+        """Draw the body's shapes and the skin's cells from two sides; also shapes of a skin that `bind` refuses.
+
+        Args:
+            model: The compiled MjModel.
+            path: File to save (png, pdf, svg); None saves none.
+
+        Returns:
+            Matplotlib figure, whose title counts the cells, or is the line of the refusal.
+
+        Raises:
+            RobotError: If the body or its geoms are missing.
+        """
+        from plantar.mujoco.skin_picture import draw_patch
+        from plantar.plotting import save_figure
+
+        geoms = self._touching(model)
+        surfaces = body_surfaces(model, named_id(model, "body", self.body), geoms)
+        rings: list[NDArray[np.float64]] = []
+        normals = np.zeros((0, 3))
+        toward = None if self.outward is None else unit_vector(self.outward, "outward")
+        try:
+            feel = self.bind(model)
+        except (RobotError, LayoutError) as problem:
+            title = f"refused: {problem}"
+        else:
+            turn = feel.rotation_to_body
+            rings = [ring @ turn.T + feel.position_in_body for ring in feel.rings]
+            normals = -feel.layout.rotations[:, :, 2] @ turn.T
+            kind = "patch" if feel.is_patch else "sole"
+            title = f"body '{self.body}': {kind} of {len(feel)} taxels, {1e4 * feel.layout.areas.sum():.3g} cm$^2$"
+            if not feel.is_patch:
+                toward = -turn[:, 2]
+        figure = draw_patch(surfaces, rings, normals, title, toward)
+        if path is not None:
+            save_figure(figure, path)
+        return figure
+
+    def _frame(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Origin (3,) and rotation (3, 3) of the skin's frame in the body's."""
+        if self.wraps:
+            feel = self._bind_patch(model)
+            return feel.position_in_body, feel.rotation_to_body
+        _, shape = self._place(model)
+        return shape.position, shape.rotation
+
+    def _bind_patch(self, model: Any) -> BoundSkin:
+        geoms = self._touching(model)
+        body = named_id(model, "body", self.body)
+        patch = self._wrapped(model, geoms)
+        make: LoadMaker = patch.load
+        return BoundSkin(
+            model, patch.layout, body, geoms, patch.position, patch.rotation,
+            reach=self.reach, proximity=self.proximity, make_load=make, rings=patch.rings,
+        )  # fmt: skip
+
+    def _wrapped(self, model: Any, geoms: list[int]) -> WrappedSkin:
+        body = named_id(model, "body", self.body)
+        weight = GRAVITY * float(model.body_subtreemass[model.body_rootid[body]])
+        return wrapped_skin(
+            model, body, geoms, side=_side_in(self.body), cell_area=self.cell_area, least_level=_ACTIVE * weight,
+            outward=self.outward, within=self.within, around=self.around, region=self.region, polygon=self.polygon,
+            forward=self.forward,
+        )  # fmt: skip
+
     def _place(self, model: Any) -> tuple[list[int], SoleShape]:
+        geoms = self._touching(model)
+        body = named_id(model, "body", self.body)
+        shape = sole_shape(model, body, geoms, self.outward, self.forward)
+        if self.site is not None:
+            return geoms, self._at_site(model, body, shape)
+        pose = None if self.layout is None else self.layout.pose
+        stated = pose is not None and pose.body == self.body and self.outward is None and self.forward is None
+        return geoms, self._at_pose(pose, shape) if pose is not None and stated else shape
+
+    def _touching(self, model: Any) -> list[int]:
+        """Ids of the geoms that can touch."""
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"a skin is bound to a mujoco.MjModel; got a {type(model).__name__}")
         if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
@@ -155,12 +277,7 @@ class Skin:
             able = sorted({model.body(int(b)).name for b in model.geom_bodyid[model.geom_contype != 0] if b})
             listed = ", ".join(able) or "none"
             raise RobotError(f"body '{self.body}' has no geom that collides; bodies that have: {listed}")
-        shape = sole_shape(model, body, geoms, self.outward, self.forward)
-        if self.site is not None:
-            return geoms, self._at_site(model, body, shape)
-        pose = None if self.layout is None else self.layout.pose
-        stated = pose is not None and pose.body == self.body and self.outward is None and self.forward is None
-        return geoms, self._at_pose(pose, shape) if pose is not None and stated else shape
+        return geoms
 
     def _at_pose(self, pose: SourcePose, shape: SoleShape) -> SoleShape:
         """The sole in the frame that the layout states, on the face of the shapes: models wear shoes or none."""
@@ -203,14 +320,17 @@ class Skin:
             if self.cell_area is not None
             else min(_CELL_AREA, shapely.Polygon(shape.outline).area / _CELLS)
         )
-        middle = shape.outline.mean(axis=0)
+        # The right foot's sole is the left one's, mirrored: mirrored bodies have mirrored cells. The outline is taken
+        # to a nanometre, so that rounding decides nowhere which cells are in.
+        side = _side_in(self.body) or shape.side
+        flip = np.array([1.0, -1.0 if side == "right" else 1.0])
+        outline = np.round(shape.outline * flip, 9)
+        middle = shapely.Polygon(outline).centroid
         layout = hex_layout(
-            shape.outline,
-            name=self.body,
-            side=_side_in(self.body) or shape.side,
-            cell_area=area,
-            origin=(float(middle[0]), float(middle[1])),
+            outline, name=self.body, side="left", cell_area=area, origin=(round(middle.x, 9), round(middle.y, 9))
         )
+        if side == "right":
+            layout = mirrored(layout)
         weight = GRAVITY * float(model.body_subtreemass[model.body_rootid[body]])
         level = min(layout.force_threshold, _ACTIVE * weight / len(layout))
         return replace(layout, thresholds={**layout.thresholds, "force": level})

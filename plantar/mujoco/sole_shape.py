@@ -14,6 +14,8 @@ from plantar.mujoco.mesh_surface import mesh_surface
 
 _DEPTH = 0.01  # m above the lowest point: what of a round sole a load brings to the ground
 _TILT = math.cos(math.radians(35.0))  # a face that is turned farther from down is no sole
+_LEANT = math.cos(math.radians(60.0))  # a face that is turned farther is a side of what lies, as a cylinder's cap
+_LEVEL = math.cos(math.radians(3.0))
 _LEAST_FACE = 0.3  # of the sole's outline: a smaller face is a facet of something round
 
 
@@ -57,7 +59,8 @@ def sole_shape(
     """Find a body's sole: its geoms' lowest face in the reference pose.
 
     `model`: MjModel; its reference pose is the first keyframe, or else `qpos0`; `outward`: direction (3,) of sole, body
-    frame; None for gravity's; `forward`: forward (3,), body frame; None for the world's x.
+    frame; None for gravity's; `forward`: forward (3,), body frame; None for the body's axis that is nearest the world's
+    x where the sole lies across a body's axis, as feet's do, else the world's x.
     """
     data = mujoco.MjData(model)
     if model.nkey:
@@ -67,9 +70,12 @@ def sole_shape(
     turn = data.xmat[body].reshape(3, 3).copy()
     parts = [_surface(model, data, g, place, turn) for g in geoms]
     gravity = model.opt.gravity if np.linalg.norm(model.opt.gravity) > 1e-6 else np.array([0.0, 0.0, -1.0])
-    down = _unit(turn.T @ gravity if outward is None else outward, "outward")
-    down, is_flat = _face(parts, down, model)
-    ahead = turn.T @ np.array([1.0, 0.0, 0.0]) if forward is None else _unit(forward, "forward")
+    down = unit_vector(turn.T @ gravity if outward is None else outward, "outward")
+    sought = down
+    down, is_flat = _face(parts, down)
+    if not is_flat:
+        _refuse_edge(parts, sought, model.body(body).name)
+    ahead = _ahead(turn, down) if forward is None else unit_vector(forward, "forward")
     if abs(ahead @ down) > 0.95:
         if forward is not None:
             raise RobotError("the sole faces the way that is given as forward; give forward=(x, y, z) along the sole")
@@ -83,6 +89,17 @@ def sole_shape(
     root = int(model.body_rootid[body])
     aside = float((turn @ rotation[:, 1]) @ (place - data.xpos[root if root != body else 0]))
     return SoleShape(position, rotation, outline, "left" if aside > -1e-9 else "right", is_flat)
+
+
+def _ahead(turn: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Forward (3,) of a sole that faces `down` (3,), body frame: a body's own axis if the sole lies across one."""
+    ahead: NDArray[np.float64] = turn.T @ np.array([1.0, 0.0, 0.0])
+    across = int(np.argmax(np.abs(down)))
+    if abs(down[across]) < _LEVEL:
+        return ahead
+    own = np.where(np.arange(3) == across, 0.0, ahead)
+    nearest = int(np.argmax(np.abs(own)))
+    return np.asarray(math.copysign(1.0, own[nearest]) * np.eye(3)[nearest] if own.any() else ahead)
 
 
 class _Part(NamedTuple):
@@ -132,7 +149,7 @@ def _ball() -> NDArray[np.float64]:
     return np.column_stack([ring * np.cos(angle), ring * np.sin(angle), height])
 
 
-def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[NDArray[np.float64], bool]:
+def _face(parts: list[_Part], down: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
     """Normal (3,) of the large face nearest a direction, and whether there is one."""
     from scipy.spatial import ConvexHull, QhullError
 
@@ -171,6 +188,32 @@ def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[ND
     return down / np.linalg.norm(down), found
 
 
+def _refuse_edge(parts: list[_Part], down: NDArray[np.float64], name: str) -> None:
+    """Refuse a body whose lowest geom has a large face that is turned too far from down: it is on an edge of it."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    lowest = max(parts, key=lambda p: float((p.points @ down).max()))
+    if lowest.centres is not None:
+        return
+    try:
+        hull = ConvexHull(lowest.points)
+    except QhullError:
+        return
+    heights = hull.points @ down
+    low = heights > heights.max() - 1e-3 * float(np.ptp(hull.points, axis=0).max())
+    normals = hull.equations[:, :3]
+    for normal in normals[low[hull.simplices].any(axis=1) & (normals @ down > _LEANT)]:
+        same = normals @ normal > 1.0 - 1e-5
+        a, b, c = (hull.points[hull.simplices[same, k]] for k in range(3))
+        area = 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+        if area > _LEAST_FACE * _area_across(hull.points, normal):
+            angle = math.degrees(math.acos(min(1.0, float(normal @ down))))
+            raise RobotError(
+                f"body '{name}' is on an edge: its nearest face is turned by {angle:.0f} deg from where it looks; "
+                "allowed: up to 35 deg; give outward=(x, y, z), or a keyframe in which it stands"
+            )
+
+
 def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> float:
     """Hull area in m^2 of points projected along an axis."""
     import shapely
@@ -205,7 +248,8 @@ def _outline(parts: list[_Part], position: NDArray[np.float64], rotation: NDArra
     return np.ascontiguousarray(shapely.get_coordinates(shapely.orient_polygons(hull))[:-1])
 
 
-def _unit(given: ArrayLike, name: str) -> NDArray[np.float64]:
+def unit_vector(given: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Direction (3,) of length 1 of an argument called `name`; RobotError if it has none."""
     try:
         vector = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):

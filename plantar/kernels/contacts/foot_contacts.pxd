@@ -19,7 +19,7 @@ cdef class FootContacts:
     cdef readonly Py_ssize_t size
     cdef Py_ssize_t room
     cdef readonly int[:, ::1] ids
-    cdef readonly double[:, ::1] vectors
+    cdef readonly double[:, ::1] vectors, normals
     cdef readonly double[::1] gaps
     cdef readonly unsigned char[::1] carries
     cdef int _make_room(self, Py_ssize_t room) except -1
@@ -53,8 +53,10 @@ cdef class ContactsInSole:
     cdef readonly Py_ssize_t pressed, in_air
     cdef Py_ssize_t room
     cdef double[:, ::1] shifted
-    cdef readonly double[:, ::1] vectors
+    cdef readonly double[:, ::1] vectors, normals
+    cdef const double[:, :] axes
     cdef list rows, heads
     cpdef look_from(self, const double[::1] origin, rotation)
     cdef _make_room(self, Py_ssize_t room)
     cpdef turn(self, FootContacts contacts)
+    cpdef void turn_normals(self, FootContacts contacts) noexcept

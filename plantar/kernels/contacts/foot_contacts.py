@@ -40,7 +40,8 @@ class FootContacts:
 
     `own`: whether geom belongs to foot (geoms,), 0 or 1. Attributes `ids`: foot's geom and the other (room, 2); -1 for
     none; `vectors`: each contact's position in m, force in N and torque in N m on foot (3 room, 3), in world frame;
-    `gaps`: gaps (room,) in m; `carries`: whether contact carries (room,).
+    `normals`: unit vectors (room, 3) into foot, in world frame, which `take` leaves as they are; `gaps`: gaps (room,)
+    in m; `carries`: whether contact carries (room,).
     """
 
     def __init__(self, own):
@@ -55,6 +56,7 @@ class FootContacts:
         self.size = 0
         self.ids = np.empty((room, 2), dtype=np.int32)
         self.vectors = np.empty((3 * room, 3))
+        self.normals = np.zeros((room, 3))
         self.gaps = np.empty(room)
         self.carries = np.empty(room, dtype=np.uint8)
 
@@ -101,6 +103,7 @@ class FootContacts:
                 self.vectors[row, j] = listed.positions[i, j]
                 self.vectors[row + 1, j] = 0.0
                 self.vectors[row + 2, j] = 0.0
+                self.normals[k, j] = sign * listed.frames[i, j]
             start = listed.addresses[i]
             if start >= 0:
                 for m in range(listed.sizes[i]):
@@ -234,12 +237,13 @@ class ContactsInSole:
     """Turns a foot's contacts into its sole frame.
 
     `vectors`: each contact's position in m, force in N and torque in N m (3 room, 3); `pressed`: how often there were
-    contacts; `in_air`: how often there were none.
+    contacts; `in_air`: how often there were none; `normals`: unit vectors (room, 3) into foot, only of `turn_normals`.
     """
 
     def __init__(self):
         self.origin = np.zeros(3)
         self.rotation = np.eye(3)
+        self.axes = np.eye(3)
         self.pressed = 0
         self.in_air = 0
         self.room = 0
@@ -249,6 +253,7 @@ class ContactsInSole:
         """Set origin (3,) in m and rotation (3, 3) to world of the sole."""
         self.origin = origin
         self.rotation = rotation
+        self.axes = rotation
 
     def _make_room(self, room):
         self.room = room
@@ -256,6 +261,7 @@ class ContactsInSole:
         turned = np.zeros((3 * room, 3))
         self.shifted = shifted
         self.vectors = turned
+        self.normals = np.zeros((room, 3))
         self.rows = [(shifted[k : k + 1], turned[k : k + 1]) for k in range(3)]
         self.heads = [(shifted[: 3 * k], turned[: 3 * k]) for k in range(room + 1)]
 
@@ -275,3 +281,14 @@ class ContactsInSole:
         else:
             shifted, turned = self.heads[count]
             _dot(shifted, self.rotation, turned)
+
+    def turn_normals(self, contacts):
+        """Turn the contacts' normals too, of the last `turn`."""
+        turn = self.axes
+        for k in range(contacts.size):
+            for j in range(3):
+                self.normals[k, j] = (
+                    contacts.normals[k, 0] * turn[0, j]
+                    + contacts.normals[k, 1] * turn[1, j]
+                    + contacts.normals[k, 2] * turn[2, j]
+                )

@@ -1,0 +1,339 @@
+"""A patch of skin on the surface of a body's geoms: its cells, frame and kernel."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.common.arrays import array
+from plantar.common.sides import Side
+from plantar.errors import RobotError
+from plantar.kernels.contacts.patch_load import PatchLoad
+from plantar.layouts.layout import DEFAULT_THRESHOLDS, SoleLayout, mirrored
+from plantar.layouts.tiling import hex_layout
+from plantar.mujoco.geom_surface import GeomSurface
+from plantar.mujoco.sole_shape import unit_vector
+from plantar.mujoco.surface_patch import Region, Samples, SurfaceCells, refuse_strip, sampled, spread_cells, width_of
+from plantar.sensing.link_skin import SkinPatch
+
+_CELL_AREA = 691e-6  # m^2, of the papers' soles
+_CELLS = 30  # at least so many of a small patch
+_COARSE = 40  # samples along the body's largest extent, from which the patch's area is known to some per cent
+_LOOKS = 0.1  # cosine of the angle to the frame's z from which a cell counts as looking the patch's way
+_PLANE = 1e-6  # m, or of a normal's components: float32 meshes
+_FINEST = 2e-4  # m: no samples closer than this
+_MOST_SAMPLES = 400_000
+
+
+class WrappedSkin(NamedTuple):
+    """A patch: `layout` of its cells, in its frame; `position` (3,) and `rotation` (3, 3) of the frame in the body's;
+    `rings`: corners (k, 3) of each cell in its frame; `kernel`: arguments of `PatchLoad`.
+    """
+
+    layout: SoleLayout | SkinPatch
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    rings: list[NDArray[np.float64]]
+    kernel: tuple[Any, ...]
+
+    def load(self) -> PatchLoad:
+        """A kernel of its own, of one thread at a time."""
+        return PatchLoad(*self.kernel)
+
+
+def body_surfaces(model: Any, body: int, geoms: Sequence[int]) -> list[GeomSurface]:
+    """The surfaces of a `model`'s `geoms` in the frame of a `body`, all of them ids."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    place = data.xpos[body].copy()
+    turn = data.xmat[body].reshape(3, 3).copy()
+    return [GeomSurface(model, data, g, place, turn) for g in geoms]
+
+
+def wrapped_skin(
+    model: Any,
+    body: int,
+    geoms: Sequence[int],
+    *,
+    side: Side | None,
+    cell_area: float | None,
+    least_level: float,
+    outward: ArrayLike | None,
+    within: float,
+    around: ArrayLike | None,
+    region: ArrayLike | None,
+    polygon: ArrayLike | None,
+    forward: ArrayLike | None,
+) -> WrappedSkin:
+    """Lay cells on the part of a body's surface of which all conditions hold; arguments as of `Skin`.
+
+    `least_level`: force in N of all taxels from which they are active. RobotError: nothing there, or a strip.
+    """
+    name = model.body(body).name
+    surfaces = body_surfaces(model, body, geoms)
+    out = None if outward is None else unit_vector(outward, "outward")
+    rotation = _axes(out, forward)
+    chosen = Region(
+        out,
+        math.radians(within),
+        None if around is None else unit_vector(around, "around"),
+        *_box(region),
+        _drawn(polygon),
+        np.ascontiguousarray(rotation[:, :2].T),
+    )
+    where = f"the skin of body '{name}'"
+    own_side = side or _side_of(model, body)
+    is_right = own_side == "right"
+    low = np.min([s.bounds()[0] for s in surfaces], axis=0)
+    high = np.max([s.bounds()[1] for s in surfaces], axis=0)
+    first = float((high - low).max()) / _COARSE
+    try:
+        coarse = _chosen(surfaces, first, is_right, chosen, where)
+    except RobotError:  # a small region may lie between the samples
+        coarse = _chosen(surfaces, max(0.1 * first, _FINEST), is_right, chosen, where)
+    total = float(coarse.areas.sum())
+    area = cell_area if cell_area is not None else min(_CELL_AREA, total / _CELLS)
+    pitch = max(width_of(area) / 8.0, _FINEST)
+    pitch = max(pitch, math.sqrt(6.0 * float(np.prod(np.sort(high - low)[1:])) / _MOST_SAMPLES))
+    samples = _chosen(surfaces, pitch, is_right, chosen, where)
+    flat = _flat_outline(surfaces, samples, chosen, rotation) if out is not None else None
+    if flat is None:
+        cells = spread_cells(samples, area, where)
+        position = np.zeros(3)
+        if out is not None:
+            position = float((cells.positions @ out).max()) * out
+        layout, rings = _curved_layout(name, own_side, cells, position, rotation, least_level)
+        radius = cells.radius
+    else:
+        outline, height = flat
+        position = height * np.asarray(out)
+        layout = _flat_layout(name, own_side, outline, area, least_level, where)
+        rings = [
+            np.column_stack([layout.cell_polygon(i), np.zeros(len(layout.corners[i]))]) for i in range(len(layout))
+        ]
+        radius = 1.25 * width_of(layout.cell_area)
+    kernel = _kernel(model, geoms, surfaces, layout, radius, chosen, position, rotation)
+    return WrappedSkin(layout, position, rotation, rings, kernel)
+
+
+def _axes(out: NDArray[np.float64] | None, forward: ArrayLike | None) -> NDArray[np.float64]:
+    """Rotation (3, 3) from patch to body: the body's axes, or z against `out` and x along the body's x."""
+    if out is None:
+        return np.eye(3)
+    ahead = np.array([1.0, 0.0, 0.0]) if forward is None else unit_vector(forward, "forward")
+    if abs(ahead @ out) > 0.95:
+        if forward is not None:
+            raise RobotError("the patch faces the way that is given as forward; give forward=(x, y, z) along it")
+        ahead = np.array([0.0, 0.0, 1.0])
+    x = ahead - (ahead @ out) * out
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(-out, x), -out])
+
+
+def _box(region: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    if region is None:
+        return np.full(3, -np.inf), np.full(3, np.inf)
+    corners = array(region, "region", (2, 3), RobotError)
+    if np.isnan(corners).any() or not (corners[0] < corners[1]).all():
+        raise RobotError(f"region {corners.tolist()} is empty; expected its low corner first, then its high corner")
+    return corners[0].copy(), corners[1].copy()
+
+
+def _drawn(polygon: ArrayLike | None) -> NDArray[np.float64]:
+    if polygon is None:
+        return np.zeros((0, 2))
+    import shapely
+
+    outline = array(polygon, "polygon", ("corners", 2), RobotError, finite=True)
+    drawn = shapely.Polygon(outline) if len(outline) >= 3 else None
+    if drawn is None or not drawn.is_valid or drawn.area <= 0.0:
+        raise RobotError("the drawn polygon encloses no area or crosses itself; expected 3 corners or more, in order")
+    return np.ascontiguousarray(outline)
+
+
+def _side_of(model: Any, body: int) -> Side:
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    root = int(model.body_rootid[body])
+    from_root = data.xpos[body] - data.xpos[root if root != body else 0]
+    return "left" if float(from_root @ data.xmat[root].reshape(3, 3)[:, 1]) > -1e-9 else "right"
+
+
+def _chosen(surfaces: list[GeomSurface], pitch: float, is_right: bool, region: Region, where: str) -> Samples:
+    """The samples in a region; RobotError for none."""
+    every = sampled(surfaces, pitch, is_right)
+    found = every.part(region.has(every.points, every.normals))
+    if not len(found.points):
+        low = every.points.min(axis=0).round(4).tolist()
+        high = every.points.max(axis=0).round(4).tolist()
+        raise RobotError(
+            f"{where}: no surface lies there that faces so; its shapes reach from {low} to {high} m in its frame; "
+            "allowed: outward, around, region and polygon that have a part of it in common"
+        )
+    return found
+
+
+def _flat_outline(
+    surfaces: list[GeomSurface], samples: Samples, region: Region, rotation: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], float] | None:
+    """Outline (k, 2) in the patch's x and y, and height of a patch that is one flat piece, seen along its normal."""
+    import shapely
+
+    out = np.asarray(region.outward)
+    heights = samples.points @ out
+    if np.abs(samples.normals - out).max() > _PLANE or float(np.ptp(heights)) > _PLANE:
+        return None
+    height = float(heights.mean())
+    pieces = []
+    for surface in surfaces:
+        for ring in surface.faces():
+            if np.abs(ring @ out - height).max() < 2.0 * _PLANE:
+                kept = _clipped(ring, region.low, region.high)
+                if len(kept) >= 3:
+                    pieces.append(shapely.Polygon(kept @ rotation[:, :2]))
+    whole = shapely.union_all(pieces)
+    if len(region.outline):
+        whole = whole.intersection(shapely.Polygon(region.outline))
+    if whole.geom_type != "Polygon" or len(whole.interiors):
+        return None
+    if abs(whole.area - float(samples.areas.sum())) > 0.2 * whole.area:  # a part is inside of another geom
+        return None
+    return np.ascontiguousarray(shapely.get_coordinates(shapely.orient_polygons(whole))[:-1]), height
+
+
+def _clipped(ring: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A convex polygon (k, 3) within a box."""
+    for axis in range(3):
+        for sign, bound in ((1.0, high[axis]), (-1.0, -low[axis])):
+            if not math.isfinite(bound) or not len(ring):
+                continue
+            over = sign * ring[:, axis] - bound
+            kept = []
+            for i in range(len(ring)):
+                j = (i + 1) % len(ring)
+                if over[i] <= 0.0:
+                    kept.append(ring[i])
+                if over[i] * over[j] < 0.0:
+                    share = over[i] / (over[i] - over[j])
+                    kept.append(ring[i] + share * (ring[j] - ring[i]))
+            ring = np.array(kept).reshape(-1, 3)
+    return ring
+
+
+def _flat_layout(
+    name: str, side: Side, outline: NDArray[np.float64], area: float, least_level: float, where: str
+) -> SoleLayout:
+    import shapely
+
+    shape = shapely.Polygon(outline)
+    box = shapely.get_coordinates(shape.minimum_rotated_rectangle)
+    thin, long = sorted(np.hypot(*(box[1:3] - box[:2]).T).tolist())
+    refuse_strip(long, thin, width_of(area), where)
+    flip = np.array([1.0, -1.0 if side == "right" else 1.0])
+    shown = np.round(outline * flip, 9)
+    middle = shapely.Polygon(shown).centroid
+    layout = hex_layout(shown, name=name, side="left", cell_area=area, origin=(round(middle.x, 9), round(middle.y, 9)))
+    if side == "right":
+        layout = mirrored(layout)
+    return _with_level(layout, least_level)
+
+
+def _with_level(layout: SoleLayout, least_level: float) -> SoleLayout:
+    from dataclasses import replace
+
+    level = min(layout.force_threshold, least_level / len(layout))
+    return replace(layout, thresholds={**layout.thresholds, "force": level})
+
+
+def _curved_layout(
+    name: str,
+    side: Side,
+    cells: SurfaceCells,
+    position: NDArray[np.float64],
+    rotation: NDArray[np.float64],
+    least_level: float,
+) -> tuple[SoleLayout | SkinPatch, list[NDArray[np.float64]]]:
+    """Cells in the patch's frame: a sole's layout if all look its way, else a link's patch."""
+    places = (cells.positions - position) @ rotation
+    inward = -cells.normals @ rotation
+    turns = _frames(inward)
+    rings = [(ring - position) @ rotation for ring in cells.rings]
+    level = min(DEFAULT_THRESHOLDS["force"], least_level / len(places))
+    if not (inward[:, 2] > _LOOKS).all():
+        return SkinPatch(name, name, places, turns, cells.areas, level), rings
+    import shapely
+
+    flat = [shapely.Polygon(ring[:, :2]) for ring in rings]
+    hull = shapely.union_all([f.convex_hull for f in flat]).convex_hull
+    starts = np.cumsum([0, *(len(ring) for ring in rings)])
+    layout = SoleLayout(
+        name=name,
+        side=side,
+        positions=places,
+        rotations=turns,
+        vertices=np.vstack(rings),
+        corners=tuple(
+            tuple(range(a, b))[:: 1 if shapely.is_ccw(shapely.LinearRing(ring[:, :2])) else -1]
+            for a, b, ring in zip(starts[:-1].tolist(), starts[1:].tolist(), rings, strict=True)
+        ),
+        neighbours=cells.neighbours,
+        areas=cells.areas,
+        outline=shapely.get_coordinates(shapely.orient_polygons(hull))[:-1],
+        ids=np.arange(len(places)),
+        cell_shape="polygon",
+        cell_area=float(np.median(cells.areas)),
+    )
+    return _with_level(layout, least_level), rings
+
+
+def _frames(inward: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotations (n, 3, 3) with z along `inward` (n, 3) and x as near the patch's x as can be."""
+    ahead = np.where(np.abs(inward[:, :1]) > 0.95, [[0.0, 0.0, 1.0]], [[1.0, 0.0, 0.0]])
+    x = ahead - np.einsum("ij,ij->i", ahead, inward)[:, None] * inward
+    x /= np.linalg.norm(x, axis=1)[:, None]
+    return np.stack([x, np.cross(inward, x), inward], axis=2)
+
+
+def _kernel(
+    model: Any,
+    geoms: Sequence[int],
+    surfaces: list[GeomSurface],
+    layout: SoleLayout | SkinPatch,
+    radius: float,
+    region: Region,
+    position: NDArray[np.float64],
+    rotation: NDArray[np.float64],
+) -> tuple[Any, ...]:
+    rows = np.full(model.ngeom, -1, dtype=np.int32)
+    rows[list(geoms)] = np.arange(len(geoms))
+    frames = np.array([[*((s.position - position) @ rotation), *(rotation.T @ s.rotation).ravel()] for s in surfaces])
+    planes = [s.planes if s.kind == mujoco.mjtGeom.mjGEOM_MESH else np.zeros((0, 4)) for s in surfaces]
+    starts = np.cumsum([0, *(len(p) for p in planes)]).astype(np.int32)
+    limits = np.zeros(21)
+    limits[3] = -2.0
+    limits[7] = 2.0
+    if region.outward is not None:
+        limits[:4] = [*(region.outward @ rotation), math.cos(region.within)]
+    if region.axis is not None:
+        limits[4:8] = [*(region.axis @ rotation), math.sqrt(0.5)]
+    # The box's axes are the body's: its coordinates of a place in the patch's frame.
+    limits[8:11] = region.low - position
+    limits[11:14] = region.high - position
+    return (
+        np.ascontiguousarray(layout.positions),
+        np.ascontiguousarray(layout.rotations[:, :, 2]),
+        np.ascontiguousarray(layout.areas),
+        radius,
+        rows,
+        np.array([s.kind for s in surfaces], dtype=np.int32),
+        frames,
+        np.array([s.size for s in surfaces]),
+        starts,
+        np.ascontiguousarray(np.vstack(planes)),
+        limits,
+        region.outline,
+        np.ascontiguousarray(rotation),
+    )
