@@ -147,6 +147,7 @@ class BoundSkin:
             areas=layout.areas,
             force_threshold=level,
             proximity_range=self._range or 0.0,
+            neighbours=layout.neighbours,
         )
 
     def percept(self, data: Any) -> Percept:

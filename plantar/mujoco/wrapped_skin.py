@@ -263,7 +263,7 @@ def _curved_layout(
     rings = [(ring - position) @ rotation for ring in cells.rings]
     level = min(DEFAULT_THRESHOLDS["force"], least_level / len(places))
     if not (inward[:, 2] > _LOOKS).all():
-        return SkinPatch(name, name, places, turns, cells.areas, level), rings
+        return SkinPatch(name, name, places, turns, cells.areas, level, 0.0, cells.neighbours), rings
     import shapely
 
     flat = [shapely.Polygon(ring[:, :2]) for ring in rings]

@@ -18,7 +18,7 @@ class SkinPatch:
 
     `positions`: taxel positions (t, 3) in link's frame in m; `rotations`: rotations (t, 3, 3) from each taxel's to
     link's frame; `areas`: area (t,) of each taxel in m^2; `force_threshold`: epsilon_f of T 3.23 in N;
-    `proximity_range`: d_range of T 3.30 in m; 0 for none.
+    `proximity_range`: d_range of T 3.30 in m; 0 for none; `neighbours`: indices of taxels beside each, if known.
     """
 
     name: str
@@ -28,6 +28,7 @@ class SkinPatch:
     areas: NDArray[np.float64]
     force_threshold: float = 0.15
     proximity_range: float = 0.05
+    neighbours: tuple[tuple[int, ...], ...] = ()
 
     def __post_init__(self) -> None:
         where = f"patch '{self.name}'"
@@ -47,11 +48,22 @@ class SkinPatch:
         ):
             if not (np.isfinite(value) and value >= 0.0):
                 raise LayoutError(f"{where}: {label} is {value} {unit}; allowed: 0 or more")
+        if self.neighbours and (
+            len(self.neighbours) != count or not all(0 <= i < count for near in self.neighbours for i in near)
+        ):
+            raise LayoutError(
+                f"{where}: neighbours name no taxel or are not one row a taxel; allowed: 0 to {count - 1}"
+            )
         for name, checked in (("positions", positions), ("rotations", rotations), ("areas", areas)):
             object.__setattr__(self, name, checked)
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether every taxel's axes are those of the link."""
+        return bool((self.rotations == np.eye(3)).all())
 
     @property
     def from_middle(self) -> NDArray[np.int64]:

@@ -16,6 +16,7 @@ from plantar.common.arrays import array
 from plantar.errors import InputError, ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.same_time import SAME_TIME
+from plantar.sensing.link_skin import SkinPatch
 
 WARMING = 60.0
 """Time constant in s with which a sole becomes as warm as the foot in it."""
@@ -67,7 +68,7 @@ class TaxelFaults:
             if not 0.0 <= value <= most:
                 raise InputError(f"taxel fault '{field.name}' is {value:g}; allowed: 0 to {most:g}")
 
-    def worn(self, layout: SoleLayout, seed: int = 0, batch: tuple[int, ...] = ()) -> "WornFaults":
+    def worn(self, layout: SoleLayout | SkinPatch, seed: int = 0, batch: tuple[int, ...] = ()) -> "WornFaults":
         """Draw the faults of one sole, or of many.
 
         `batch`: dimensions of many soles, for arrays (*batch, n). Returns faults, with state of hysteresis and delay.
@@ -91,7 +92,7 @@ class WornFaults:
 
     def __init__(
         self,
-        layout: SoleLayout,
+        layout: SoleLayout | SkinPatch,
         faults: TaxelFaults,
         gains: NDArray[np.float64],
         offsets: NDArray[np.float64] | float = 0.0,
@@ -163,7 +164,7 @@ class WornFaults:
         return np.asarray(first + share * (second - first))
 
 
-def crosstalk_matrix(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
+def crosstalk_matrix(layout: SoleLayout | SkinPatch, crosstalk: float) -> NDArray[np.float64]:
     """Share (n, n) of each taxel's force in each reading; columns sum to 1."""
     spread = np.eye(len(layout))
     for i, near in enumerate(layout.neighbours):
