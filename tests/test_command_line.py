@@ -30,7 +30,7 @@ def called(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
 def shell(command: str, **environment: str) -> subprocess.CompletedProcess[str]:
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     env = os.environ | {"PATH": path} | environment
-    return subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=env, timeout=60)
+    return subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=env, timeout=600)
 
 
 def test_the_version_is_the_packages(monkeypatch, capsys):
@@ -124,12 +124,12 @@ def test_an_ascii_terminal_is_written_to(tmp_path):
 def test_a_run_that_is_ended_leaves_nothing_and_says_so(tmp_path, number, code, words):
     command = [*PLANTAR, "sim", "flat", "--set", "steps=200", "--plot", "plots", "--record", "run.mcap"]
     process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    for _ in range(600):
+    for _ in range(12000):
         if any(tmp_path.rglob(".plantar-*")) and (tmp_path / "run.mcap").exists():
             break
         time.sleep(0.05)
     process.send_signal(number)
-    out, err = process.communicate(timeout=30)
+    out, err = process.communicate(timeout=600)
     assert process.returncode == code, err
     assert out == ""
     assert words in err

@@ -8,7 +8,7 @@ from plantar import FeetPercept, Percept
 
 
 def test_the_gallery_draws_what_the_page_shows(repository, tmp_path):
-    subprocess.run([sys.executable, "examples/gallery.py", str(tmp_path)], cwd=repository, check=True, timeout=300)
+    subprocess.run([sys.executable, "examples/gallery.py", str(tmp_path)], cwd=repository, check=True, timeout=600)
     drawn = {p.name: p.stat().st_size for p in tmp_path.iterdir()}
     shown = set(
         re.findall(r"\]\(images/(gallery_\w+\.png)\)", (repository / "docs" / "perception.md").read_text("utf-8"))

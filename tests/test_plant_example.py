@@ -7,7 +7,7 @@ import sys
 
 def test_levels_grow_and_the_controller_keeps_its_own_mass(repository):
     done = subprocess.run(
-        [sys.executable, "examples/other_plant.py"], cwd=repository, capture_output=True, text=True, timeout=240
+        [sys.executable, "examples/other_plant.py"], cwd=repository, capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 0, done.stderr
     text = done.stdout

@@ -8,7 +8,7 @@ import sys
 def run(name, repository):
     """What an example prints."""
     done = subprocess.run(
-        [sys.executable, f"examples/{name}.py"], cwd=repository, capture_output=True, text=True, timeout=120
+        [sys.executable, f"examples/{name}.py"], cwd=repository, capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -38,5 +38,5 @@ def test_the_page_of_skins_runs_as_it_is_printed(repository, tmp_path):
     blocks = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     code = "".join(block for block in blocks if not re.search("warp|mjlab|viewer", block))
     code += "print(forces.shape, wrenches.shape)"
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=600)
     assert done.stdout == "(8, 100, 39, 3) (8, 100, 6)\n", done.stderr

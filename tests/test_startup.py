@@ -4,7 +4,6 @@ import os
 import re
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -35,10 +34,11 @@ def loaded_by(*arguments: str) -> set[str]:
 
 
 def seconds(*command: str) -> float:
-    """Wall time of a command that must succeed."""
-    start = time.perf_counter()
+    """Processor time of a command that must succeed."""
+    start = os.times()
     subprocess.run(command, check=True, capture_output=True, cwd=ROOT)
-    return time.perf_counter() - start
+    end = os.times()
+    return end.children_user + end.children_system - start.children_user - start.children_system
 
 
 def test_help_loads_nothing_heavy():
@@ -69,7 +69,7 @@ def test_the_public_names_load_numpy_only_when_used():
     subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT)
 
 
-def test_help_starts_within_0_4_s():
+def test_help_takes_less_than_0_4_s_of_the_processor():
     """The best of five runs, so that a busy machine does not decide; 0.06 s where this was written."""
     console_script = Path(sys.executable).parent / "plantar"
     command = [str(console_script)] if console_script.exists() else [sys.executable, "-m", "plantar"]

@@ -54,7 +54,7 @@ def axe_script() -> str:
     return "<script>" + AXE.read_text(encoding="utf-8").replace("</script", "<\\/script") + "</script>"
 
 
-def visit(page, probe, work, *, dark=False, timeout=90.0, width=1000, webgl=False):
+def visit(page, probe, work, *, dark=False, timeout=600.0, width=1000, webgl=False):
     """Open a copy of a page that runs a probe at its end, and take what the probe sends back.
 
     The page comes from a server on this machine, so that the browser runs in real time and ends when the probe has.
@@ -111,7 +111,7 @@ def visit(page, probe, work, *, dark=False, timeout=90.0, width=1000, webgl=Fals
         pytest.fail(f"the page gave no result in {timeout} s: {log.read_text(errors='replace')[-1500:]}")
     finally:
         process.terminate()
-        process.wait(timeout=20)
+        process.wait(timeout=600)
         server.shutdown()
         server.server_close()
     seconds = time.perf_counter() - begin

@@ -38,7 +38,7 @@ def printed(page: Path, work: Path) -> bytes:
     command = [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
     command += [f"--user-data-dir={work / 'printing'}", "--no-first-run", "--disable-background-networking"]
     command += ["--no-pdf-header-footer", f"--print-to-pdf={target}", page.resolve().as_uri()]
-    subprocess.run(command, check=True, capture_output=True, timeout=90)
+    subprocess.run(command, check=True, capture_output=True, timeout=600)
     return target.read_bytes()
 
 

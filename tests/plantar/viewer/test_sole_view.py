@@ -93,7 +93,7 @@ def test_a_notebook_shows_a_line_and_a_figure(run):
 
 def test_the_command_writes_one_picture_and_one_json(run, tmp_path):
     command = [sys.executable, "-m", "plantar", "sole", str(run), "--at", "0.5", "--json", "-o", "out"]
-    done = subprocess.run(command, cwd=tmp_path, env=os.environ, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(command, cwd=tmp_path, env=os.environ, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     printed = json.loads(done.stdout)
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["sole_left.json", "sole_left.png"]
@@ -101,7 +101,7 @@ def test_the_command_writes_one_picture_and_one_json(run, tmp_path):
         k: v for k, v in printed.items() if k != "files"
     }
     wrong = subprocess.run(
-        [*command[:-1], "none", "--at", "9"], cwd=tmp_path, capture_output=True, text=True, timeout=120
+        [*command[:-1], "none", "--at", "9"], cwd=tmp_path, capture_output=True, text=True, timeout=600
     )
     assert (wrong.returncode, wrong.stderr.count("\n")) == (2, 1)
     assert not (tmp_path / "none").exists()

@@ -182,7 +182,7 @@ def test_a_step_with_nothing_near_is_cheap():
 
 
 def _seconds(sensor: SkinSensor, data: Any) -> float:
-    begin = time.perf_counter()
+    begin = time.process_time()
     for _ in range(20):
         sensor.apply(data)
-    return (time.perf_counter() - begin) / 20
+    return (time.process_time() - begin) / 20

@@ -56,7 +56,7 @@ assert np.abs(bare[:130, :200] - unloaded[:130, :200]).mean() > 20
 def test_pictures_and_videos(tmp_path, repository):
     environment = os.environ | {"MUJOCO_GL": "egl", "PYTHONPATH": str(repository)}
     run = subprocess.run(
-        [sys.executable, "-c", SCRIPT, str(tmp_path)], env=environment, capture_output=True, text=True, timeout=300
+        [sys.executable, "-c", SCRIPT, str(tmp_path)], env=environment, capture_output=True, text=True, timeout=600
     )
     if run.returncode and "apt-get install libegl1" in run.stderr:
         pytest.skip("no OpenGL library for rendering without a display")

@@ -76,7 +76,7 @@ def test_closing_ends_workers_in_the_middle_of_a_run():
     pool = LocalWorkers(2, time.sleep)
     pool.submit(600.0)
     pool.submit(601.0)
-    until = time.monotonic() + 10.0
+    until = time.monotonic() + WAIT
     while len(processes()) < 2 and time.monotonic() < until:  # a process has its parent's command line at first
         time.sleep(0.01)
     assert len(processes()) == 2
