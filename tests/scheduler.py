@@ -10,9 +10,16 @@ from xdist.workermanage import WorkerController
 
 __all__ = ["FilesAtOnce"]
 
+TOGETHER = ("tests/shoes/checks/", "tests/shoes/papers/")
+"""Folders whose tests look at one pair of shoes, which takes 20 s of the processor to build and export."""
+
 
 class FilesAtOnce(LoadFileScheduling):
     """A file at a time to each worker; what a dead one has left goes to the others, without the test it died of."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        """The file of a test, or one name for all files that share something slow, which one worker makes once."""
+        return "one pair of shoes" if nodeid.startswith(TOGETHER) else super()._split_scope(nodeid)
 
     def remove_node(self, node: WorkerController) -> str | None:
         """Take a worker away, and give the name of the test that it died of, if it had any left."""

@@ -105,23 +105,25 @@ def editable(tmp_path_factory):
     return python
 
 
-def checked(python: Path, script: str, folder: Path) -> dict[int, str]:
-    """What mypy finds in a script of a user, strictly: the code of the error on each line. No cache is kept and no
-    configuration read."""
-    (folder / "script.py").write_text(script)
+def checked(python: Path, folder: Path, **scripts: str) -> dict[str, dict[int, str]]:
+    """What mypy finds in a user's scripts, strictly: of each the code of the error on each line. No cache is
+    kept and no configuration read."""
+    for name, script in scripts.items():
+        (folder / f"{name}.py").write_text(script)
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "MYPY"))}
     flags = "--strict --config-file= --cache-dir=/dev/null --no-color-output --python-executable"
     done = subprocess.run(
-        [sys.executable, "-m", "mypy", *flags.split(), str(python), "script.py"],
+        [sys.executable, "-m", "mypy", *flags.split(), str(python), *(f"{name}.py" for name in scripts)],
         cwd=folder,
         env=environment,
         capture_output=True,
         text=True,
     )
     assert done.returncode in (0, 1), done.stderr
-    return {
-        int(line): code for line, code in re.findall(r"^script\.py:(\d+): error: .*\[([a-z-]+)\]$", done.stdout, re.M)
-    }
+    found: dict[str, dict[int, str]] = {name: {} for name in scripts}
+    for name, line, code in re.findall(r"^(\w+)\.py:(\d+): error: .*\[([a-z-]+)\]$", done.stdout, re.M):
+        found[name][int(line)] = code
+    return found
 
 
 def expected(script: str) -> dict[int, str]:
@@ -129,5 +131,5 @@ def expected(script: str) -> dict[int, str]:
 
 
 def test_a_right_script_passes_and_every_wrong_line_is_found(editable, tmp_path):
-    assert checked(editable, SCRIPT, tmp_path) == {}
-    assert checked(editable, WRONG, tmp_path) == expected(WRONG)
+    found = checked(editable, tmp_path, right=SCRIPT, wrong=WRONG)
+    assert found == {"right": {}, "wrong": expected(WRONG)}

@@ -174,6 +174,7 @@ def test_the_installed_kernels_are_compiled_and_the_sources_do_the_same(installe
     assert run(installed / "python", "-c", forced, cwd=tmp_path).stdout.split() == ["1.0", "False"]
 
 
+@pytest.mark.long
 def test_without_a_compiler_it_installs_and_works(tmp_path):
     """Built from a copy with a compiler that does not exist: the wheel holds the sources alone, and they run."""
     source = copied_source(tmp_path, generated=True, compiled=False)

@@ -24,6 +24,7 @@ pytestmark = pytest.mark.skipif(not kernels.compiled, reason="interpreted kernel
 SHORT = (2.3, 2.6)  # s of a swing
 
 
+@pytest.mark.sample(2, each="robot")
 @pytest.mark.parametrize(("scene", "robot"), CASES)
 def test_a_tick_makes_no_more_calls(scene, robot):
     limit, found = limits()[scene, robot], calls_a_tick(scene, robot)

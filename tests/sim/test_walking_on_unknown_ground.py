@@ -21,6 +21,7 @@ def test_proximity_softens_the_landing_on_ground_that_is_not_where_it_is_expecte
     assert on["landings_s"][-1] == pytest.approx(off["landings_s"][-1], abs=0.4)
 
 
+@pytest.mark.long
 def test_computing_everything_leaves_the_motion_with_proximity_the_same():
     runs = []
     for skip in ("auto", "none"):
@@ -36,6 +37,7 @@ def test_computing_everything_leaves_the_motion_with_proximity_the_same():
         assert everything["skipped"][name] == 0 < plain["skipped"][name]
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("slope", ["pitch=10", "roll=-10"])
 def test_the_sole_lies_on_a_slope_when_it_touches_it(slope):
     summary = run_scene(load_scene("tilt", ["pitch=0", slope, "settle=0.5"]), 0)
@@ -49,6 +51,7 @@ def test_a_slab_is_stepped_on_softly():
     assert max(summary["impacts_N"]) < 0.5 * WEIGHT
 
 
+@pytest.mark.sample(1, each="feasible")
 @pytest.mark.parametrize(
     ("scene", "robot", "feasible"),
     [("feasibility-1", "h1", True), ("feasibility-2", "h1", False), ("feasibility-3", "hrp2kai", False)],
@@ -102,15 +105,16 @@ def test_a_robot_that_does_not_see_the_ground_judges_no_footholds_and_takes_no_s
     assert None not in (sees.compliance, sees.feasibility, sees.conformity)
 
 
-# Of seeds 0 to 7, 2 fall, and 7 with feet that do not.
-@pytest.mark.parametrize("seeds", [range(4), pytest.param(range(8), marks=pytest.mark.long)])
-def test_feet_that_take_the_shape_of_bumps_walk_further(seeds):
+@pytest.mark.long
+def test_feet_that_take_the_shape_of_bumps_walk_further():
+    """Of seeds 0 to 7, 2 fall, and 7 with feet that do not."""
+
     def upright(*settings: str) -> float:
         """Time in s until they fell or ended, in all."""
         # Of conforming feet alone: bumps that are judged, or taken for partial footholds, make the walk no longer.
         alone = ("footholds=off", "control.feasibility=off", "control.step_adjustment=false", "approach_height=0")
         scene = load_scene("pebbles", ["steps=8", "slope_range=0", *alone, *settings])
-        return sum(float(Simulation(scene, seed).run()["sim_time_s"]) for seed in seeds)
+        return sum(float(Simulation(scene, seed).run()["sim_time_s"]) for seed in range(8))
 
     assert upright() > upright("conform=false") + 10.0
 

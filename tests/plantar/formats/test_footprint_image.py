@@ -169,6 +169,7 @@ def test_what_is_no_footprint(tmp_path):
     assert not (tmp_path / "none").exists()
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("suffix", ["png", "jpg", "tif", "bmp"])
 def test_damage(tmp_path, suffix):
     image = canvas()

@@ -58,6 +58,7 @@ def scene(monkeypatch, tmp_path):
     return made
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("servo", ["torque", "velocity", "position"])
 def test_posture_is_held_with_every_kind_of_drive(scene, servo):
     summary = Companion(scene(f"servo={servo}"), 3).run()

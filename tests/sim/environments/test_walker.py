@@ -18,12 +18,14 @@ from plantar.sim.environments.walker import PlantarEnv  # noqa: E402
 from plantar.sim.model.world import build_world  # noqa: E402
 
 
+@pytest.mark.sample(2)
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("name", ENVIRONMENTS)
 def test_gymnasium_finds_nothing_wrong(name):
     check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
 
 
+@pytest.mark.sample(1, each="robot")
 @pytest.mark.parametrize("task", ENVIRONMENTS.values())
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 def test_the_skin_adds_up_and_a_seed_repeats_an_episode(task, robot):
@@ -45,6 +47,7 @@ def test_the_skin_adds_up_and_a_seed_repeats_an_episode(task, robot):
     assert all(np.array_equal(runs[0][1][k], runs[1][1][k]) for k in seen)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("mounted", [(1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)])
 def test_the_imu_reads_in_the_torsos_frame_however_it_is_mounted(mounted, monkeypatch):
     def build(robot, *given):

@@ -137,6 +137,7 @@ def twist(simulation: Simulation) -> None:
     simulation.world.data.qfrc_applied[simulation.world.joint_qvel[3]] = 1.0
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("push", [lift, twist])
 def test_a_robot_that_is_helped_from_outside_does_not_walk(push: Callable[[Simulation], None]) -> None:
     """By as little as 5 N or 1 N m: it walks as well without."""

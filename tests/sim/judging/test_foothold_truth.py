@@ -40,6 +40,7 @@ def test_without_looking_at_footholds_nothing_is_replanned():
 SHORT_BEAM = ["steps=14", "terrain.length=0.2", "terrain.width=0.08"]
 
 
+@pytest.mark.long
 def test_a_short_beam_is_crossed():
     """From platform to platform over a third of the sole, which the seed puts 41 mm off its middle."""
     run = run_scene(load_scene("beam", SHORT_BEAM), 0)
@@ -49,6 +50,7 @@ def test_a_short_beam_is_crossed():
     assert min(run["contact_area_ratio"]) < 0.4
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("offset", [0.06, -0.06])
 def test_the_same_beam_throws_a_robot_that_does_not_feel_it(offset):
     """Steps that move for balance keep the blind robot upright, though off its way: here neither robot's do."""

@@ -19,6 +19,7 @@ def com(simulation: Simulation, model: mujoco.MjModel) -> np.ndarray:
     return data.xmat[root].reshape(3, 3).T @ (data.subtree_com[root] - data.xpos[root])
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 def test_gyro_com_and_mass_are_found(robot):
     simulation = Simulation(load_scene("flat", ["walk.steps=2", *TRUE], robot), 0)

@@ -116,6 +116,7 @@ def test_a_fall_is_seen_and_ends_the_run():
     assert summary["sim_time_s"] < 9.0
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("step", [1, 2])
 def test_feedback_survives_a_push_that_an_open_loop_does_not(step):
     """32 N s from the front; 25 N s were within what stiff servos, a lean and the next step survive by themselves."""
@@ -134,6 +135,7 @@ def test_standing_is_a_walk_of_no_steps():
     assert summary["final"]["position_error_m"] < 0.005
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("settings", "position"),
     [

@@ -30,6 +30,7 @@ def loads(run: Simulation) -> tuple[dict[str, float], dict[str, np.ndarray]]:
     return forces, off
 
 
+@pytest.mark.sample(1, each="plant")
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("plant", ["nominal", "random"])
 def test_two_seconds_after_a_walk_each_foot_carries_half_near_its_middle(robot, plant):

@@ -8,6 +8,7 @@ from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 def test_a_robot_walks_turns_and_stops_as_commanded(robot):
     commands = 'commands=[[0.0, 0.1, 0.05, 0.15], [7.2, "stop"]]'

@@ -9,10 +9,9 @@ from plantar.sim.survey.survey import survey_model
 
 from .random_biped import X, Y, random_biped
 
-SEEDS = [s if s < 20 else pytest.param(s, marks=pytest.mark.long) for s in range(60)]
 
-
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.sample(6)
+@pytest.mark.parametrize("seed", range(60))
 def test_an_unseen_biped_is_found(seed, tmp_path):
     truth = random_biped(seed, tmp_path)
     found = survey_model(truth.file, tmp_path)
@@ -35,6 +34,7 @@ def test_an_unseen_biped_is_found(seed, tmp_path):
         assert (sole.high - sole.low)[1] == pytest.approx(truth.size[1], abs=0.3 * truth.size[1])
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_legs_of_four_joints_are_found(seed, tmp_path):
     truth = random_biped(seed, tmp_path, (X, Y, Y, Y))
@@ -43,6 +43,7 @@ def test_legs_of_four_joints_are_found(seed, tmp_path):
     assert len(truth.joints["left"]) == 4
 
 
+@pytest.mark.sample(1, each="axis")
 @pytest.mark.parametrize(
     ("axis", "degrees", "words"),
     [*(("z", degrees, "turned by") for degrees in (10.0, -30.0, 150.0)), ("x", -90.0, "y axis points up")],

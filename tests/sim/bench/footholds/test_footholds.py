@@ -188,6 +188,7 @@ KNEES = [
 ]
 
 
+@pytest.mark.sample(1, each="reason")
 @pytest.mark.parametrize(
     ("cheat", "reason"),
     [

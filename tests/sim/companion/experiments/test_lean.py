@@ -15,6 +15,7 @@ def test_the_foremost_edge_of_a_polygon():
     assert _foremost(polygon, 5.0) == pytest.approx(2.0)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_the_soles_see_what_they_stand_on(seed):
     companion = Companion(open_scene("lean"), seed)
