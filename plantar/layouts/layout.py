@@ -20,6 +20,7 @@ from plantar.common.arrays import array, integers, numbers, own, read_only
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import LayoutError
 from plantar.kernels.skin.sole import SoleKernel
+from plantar.layouts.contact_levels import ContactLevels, contact_levels
 from plantar.layouts.source_pose import SourcePose
 from plantar.mechanics.lip import GRAVITY
 
@@ -75,6 +76,8 @@ class SoleLayout:
         ranges: Sensing range (low, high) of each in SI.
         thresholds: Activation threshold of each in SI.
         pose: Of the sole's frame in the file or link that it came from, if known.
+        noise: Standard deviation of a taxel's readings of each in SI, where known. At the layout's own force threshold
+            a sole that measures no more than its noise has no active taxel (`contact_levels`).
 
     Raises:
         LayoutError: Invalid field, named in the message.
@@ -102,6 +105,7 @@ class SoleLayout:
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=lambda: dict(DEFAULT_RANGES))
     thresholds: Mapping[str, float] = field(default_factory=lambda: dict(DEFAULT_THRESHOLDS))
     pose: SourcePose | None = None
+    noise: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         kept = self.__dict__  # past what keeps others from assigning
@@ -137,12 +141,13 @@ class SoleLayout:
                 for name, span in _named("ranges", self.ranges)
             }
         )
-        kept["thresholds"] = MappingProxyType(
-            {
-                name: number(level, f"layout field 'thresholds.{name}'", LayoutError, nan=True)
-                for name, level in _named("thresholds", self.thresholds)
-            }
-        )
+        for table in ("thresholds", "noise"):
+            kept[table] = MappingProxyType(
+                {
+                    name: number(level, f"layout field '{table}.{name}'", LayoutError, nan=True)
+                    for name, level in _named(table, getattr(self, table))
+                }
+            )
         self._check(n)
 
     def _check(self, n: int) -> None:
@@ -186,9 +191,10 @@ class SoleLayout:
         for name, (low, high) in self.ranges.items():
             if not (math.isfinite(low) and math.isfinite(high) and low < high):
                 raise LayoutError(f"layout field 'ranges.{name}' is [{low}, {high}]; allowed: finite, low below high")
-        for name, value in self.thresholds.items():
-            if not (math.isfinite(value) and value >= 0.0):
-                raise LayoutError(f"layout field 'thresholds.{name}' is {value}; allowed: finite, 0 or more")
+        for table in ("thresholds", "noise"):
+            for name, value in getattr(self, table).items():
+                if not (math.isfinite(value) and value >= 0.0):
+                    raise LayoutError(f"layout field '{table}.{name}' is {value}; allowed: finite, 0 or more")
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Copies and pickles carry the fields; what was computed from them, compiled kernels too, is made again.
@@ -206,6 +212,11 @@ class SoleLayout:
     def force_threshold(self) -> float:
         """Force in N of an active taxel (epsilon_f of T 4.22)."""
         return float(self.thresholds.get("force", DEFAULT_THRESHOLDS["force"]))
+
+    @cached_property
+    def contact_levels(self) -> ContactLevels:
+        """Forces in N that a sole without contact stays below, by its noise; 0 where that is not known."""
+        return contact_levels(float(self.noise.get("force", 0.0)), len(self))
 
     @cached_property
     def force_limit(self) -> float:
@@ -271,6 +282,7 @@ class SoleLayout:
             self.corner_vertex,
             self.force_threshold,
             self.force_limit,
+            *self.contact_levels,
         )
 
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:

@@ -37,6 +37,7 @@ def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
         "modalities": list(layout.modalities),
         "ranges": {k: list(v) for k, v in layout.ranges.items()},
         "thresholds": dict(layout.thresholds),
+        **({"noise": dict(layout.noise)} if layout.noise else {}),
         **pose,
         "outline": layout.outline.tolist(),
         "vertices": layout.vertices.tolist(),
@@ -118,6 +119,9 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
     thresholds = _take(source, "thresholds", dict, where)
     for key, value in thresholds.items():
         _numbers(value, (), f"thresholds.{key}", where)
+    noise = _take(source, "noise", dict, where) if "noise" in source else {}
+    for key, value in noise.items():
+        _numbers(value, (), f"noise.{key}", where)
     vertices = _numbers(_take(source, "vertices", list, where), (None, 3), "vertices", where)
     outline = _numbers(_take(source, "outline", list, where), (None, 2), "outline", where)
     cell_area = _numbers(_take(source, "cell_area", (int, float), where), (), "cell_area", where)
@@ -140,6 +144,7 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
             modalities=tuple(modalities),
             ranges={k: (float(v[0]), float(v[1])) for k, v in ranges.items()},
             thresholds={k: float(v) for k, v in thresholds.items()},
+            noise={k: float(v) for k, v in noise.items()},
             pose=None if source.get("pose") is None else SourcePose.from_mapping(source["pose"], where),
         )
         check_cells(layout)

@@ -33,9 +33,15 @@ def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> An
     Returns mask (..., n) of the same library.
     """
     instance(layout, SoleLayout, "layout")
-    _namespace(layout, force)
+    xp = _namespace(layout, force)
     low = layout.force_threshold if threshold is None else number(threshold, "activation threshold")
-    return (force > low) & (force < layout.force_limit)
+    above = (force > low) & (force < layout.force_limit)
+    cell, sole = layout.contact_levels
+    if not cell or low != layout.force_threshold:
+        return above
+    pressed = xp.where(force > 0.0, force, xp.zeros_like(force))  # without NaN
+    touching = xp.any(pressed > cell, axis=-1, keepdims=True) | (xp.sum(pressed, axis=-1, keepdims=True) > sole)
+    return above & touching
 
 
 def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> ArrayLoads:

@@ -22,7 +22,7 @@ from plantar.mechanics.zmp import zero_moment_wrench
 from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.percept_shapes import ShapeMembers
 from plantar.percepts.percept_virtual import VirtualMembers
-from plantar.sensing.activation import active_taxels
+from plantar.sensing.activation import active_of, active_taxels
 from plantar.sensing.force import scaled_by_area
 from plantar.sensing.health import TaxelHealth, fill_from_neighbours
 from plantar.sensing.reading import Reading
@@ -161,14 +161,14 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def active(self) -> NDArray[np.bool_]:
-        """Active taxels (n,) (T 4.22); faulty ones only if filled."""
+        """Active taxels (n,) (T 4.22); faulty ones only if filled, none of a sole that measures no more than noise."""
         mask = self._active_above()
         if mask is not None:
             return mask
         leaves_out = self._stuck is None and not self.options.fill  # what is faulty, without a look at each fault
         force = self.reading.force if leaves_out else self.sound_force
         if self._given_active is None:
-            return active_taxels(force, self.force_threshold, self.layout.force_limit)
+            return active_of(self.layout, force, self.force_threshold)
         return np.asarray(self._given_active & active_taxels(force, 0.0, self.layout.force_limit))
 
     @lazy

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.common.arguments import number
 from plantar.common.arrays import mask, numbers
 from plantar.errors import InputError, ReadingError
+from plantar.layouts.layout import SoleLayout
 
 
 def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
@@ -54,6 +55,25 @@ def hysteresis(
         raise InputError(f"initial state has shape {before.shape}; expected () or {series.shape[1:]}")
     start = np.broadcast_to(before, series.shape[1:])[None]
     return np.asarray(np.take_along_axis(np.concatenate([start, on]), last, axis=0))
+
+
+def active_of(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) -> NDArray[np.bool_]:
+    """Mask (..., n) of a sole's active taxels: `active_taxels`, none of a sole that measures no more than noise.
+
+    At the layout's own threshold that is decided by its `contact_levels`; another threshold stands for itself.
+
+    `force`: normal forces (..., n) in N; `threshold`: activation threshold in N; layout's if None.
+    """
+    low = layout.force_threshold if threshold is None else threshold
+    above = active_taxels(force, low, layout.force_limit)
+    cell, sole = layout.contact_levels
+    if not cell or low != layout.force_threshold:
+        return above
+    given = np.asarray(force, dtype=np.float64)
+    pressed = np.where(given > 0.0, given, 0.0)  # without NaN
+    with np.errstate(over="ignore"):
+        total = pressed.sum(axis=-1, keepdims=True)
+    return above & ((pressed.max(axis=-1, keepdims=True) > cell) | (total > sole))
 
 
 class TaxelActivation:

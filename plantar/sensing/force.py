@@ -8,7 +8,7 @@ from plantar.common.arrays import array
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames, taxel_values
-from plantar.sensing.activation import active_taxels
+from plantar.sensing.activation import active_of
 
 
 def center_of_pressure(
@@ -38,8 +38,7 @@ def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: floa
 
 def _active(layout: SoleLayout, force: NDArray[np.float64], threshold: float | None) -> NDArray[np.float64]:
     """Forces of active taxels, 0 elsewhere."""
-    low = layout.force_threshold if threshold is None else threshold
-    return np.where(active_taxels(force, low, layout.force_limit), force, 0.0)
+    return np.where(active_of(layout, force, threshold), force, 0.0)
 
 
 def pressure_driven_wrench(
@@ -54,7 +53,7 @@ def pressure_driven_wrench(
     InputError: forces not (..., taxels).
     """
     readings = taxel_frames(layout, force)
-    active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
+    active = active_of(layout, readings, threshold)
     with np.errstate(over="ignore", invalid="ignore"):  # of forces as large as no sensor's, where no range is stated
         wrench = np.where(active, readings, 0.0) @ layout.wrench_map.T
     return scaled_by_area(wrench, active @ layout.areas, reference_area)

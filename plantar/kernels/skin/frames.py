@@ -1,6 +1,7 @@
 """Many readings (frames, n) in N of one `SoleKernel` in one pass, without the interpreter lock.
 
-Forces up to `threshold`, NaN, and from `saturation` on are left out.
+Forces up to `threshold`, NaN, and from `saturation` on are left out, and all of a sole that `SoleKernel.touches` finds
+without contact.
 """
 
 try:
@@ -32,6 +33,9 @@ def _wrenches(sole, force, threshold, saturation, kept, out):
     lever_x = sole.lever_x
     lever_y = sole.lever_y
     for k in range(frames):
+        if not sole.touches(force[k], threshold):
+            out[k, :] = 0.0
+            continue
         for i in range(n):
             f = force[k, i]
             f = f if f > threshold else 0.0
@@ -115,6 +119,10 @@ def _loads(sole, force, threshold, saturation, kept, covered, out):
     lever_x = sole.lever_x
     lever_y = sole.lever_y
     for k in range(force.shape[0]):
+        if not sole.touches(force[k], threshold):
+            out[k, :7] = 0.0
+            out[k, 7:] = _NONE
+            continue
         for i in range(n):
             f = force[k, i]
             part = areas[i]

@@ -32,6 +32,9 @@ cdef class SoleKernel:
     cdef public double tolerance
     cdef readonly object threshold
     cdef readonly double limit
+    cdef double level
+    cdef readonly double cell_contact, sole_contact
+    cdef bint noisy
     cdef public bint flat
     cdef const Py_ssize_t[::1] corner_level, first_end, last_begin
     cdef Py_ssize_t levels
@@ -46,14 +49,17 @@ cdef class SoleKernel:
     cdef int _read_mask(self, const unsigned char[:] active, SoleScratch scratch) except -1
     cpdef active(self, force, double threshold, double saturation)
     cdef SoleScratch _borrow_with_active(self, force, double threshold, double saturation)
+    @cython.locals(touching=bint)
     cdef void activate(
         self, const double[:] force, double threshold, double saturation, unsigned char[::1] out
     ) noexcept nogil
+    @cython.locals(total=double)
+    cdef bint touches(self, const double[:] force, double threshold) noexcept nogil
     @cython.locals(finite=bint)
     cpdef faults(self, force, double saturation)
     cpdef loads(self, force, active)
     cpdef loads_above(self, force, double threshold, double saturation)
-    @cython.locals(fz=double, tx=double, ty=double, area=double)
+    @cython.locals(fz=double, tx=double, ty=double, area=double, largest=double, total=double)
     cpdef unsaturated_loads(self, force, double threshold, double saturation)
     cpdef bint reaches(self, force, double level) except *
     @cython.locals(fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double, sx=double, sy=double)

@@ -66,7 +66,7 @@ class SoleScratch:
 
 class SoleKernel:
     """One sole's taxels, prepared for the kernels. Taxels up to `threshold` in N, from `saturation` on, and NaN are not
-    active.
+    active, nor is any of a sole that measures no more than its noise (`plantar.layouts.contact_levels`).
 
     Args:
         positions: Taxel centers (n, 3) in sole frame in m.
@@ -77,13 +77,29 @@ class SoleKernel:
         corner_vertex: Vertex indices of corners, taxel by taxel, counter-clockwise.
         threshold: Default activation threshold in N.
         limit: Force in N from which one is saturated.
+        cell_contact: At the default threshold a sole is in contact above this force in N of one cell.
+        sole_contact: Or above this sum in N of its positive forces.
     """
 
     def __init__(
-        self, positions, normals, areas, vertices, corner_start, corner_vertex, threshold=0.0, limit=_INFINITE
+        self,
+        positions,
+        normals,
+        areas,
+        vertices,
+        corner_start,
+        corner_vertex,
+        threshold=0.0,
+        limit=_INFINITE,
+        cell_contact=0.0,
+        sole_contact=0.0,
     ):
         self.threshold = float(threshold)
         self.limit = float(limit)
+        self.level = self.threshold
+        self.cell_contact = float(cell_contact)
+        self.sole_contact = float(sole_contact)
+        self.noisy = self.cell_contact > 0.0
         positions = np.asarray(positions, dtype=np.float64).reshape(-1, 3)
         normals = np.asarray(normals, dtype=np.float64).reshape(-1, 3)
         vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 2)
@@ -199,8 +215,21 @@ class SoleKernel:
 
     def activate(self, force, threshold, saturation, out):
         """`active` into an array (n,)."""
+        touching = self.touches(force, threshold)
         for i in range(self.taxels):
-            out[i] = (force[i] > threshold) & (force[i] < saturation)
+            out[i] = touching & (force[i] > threshold) & (force[i] < saturation)
+
+    def touches(self, force, threshold):
+        """Whether forces (n,) in N are more than noise; always with another threshold than the layout's own."""
+        if not self.noisy or threshold != self.level:
+            return True
+        total = 0.0
+        for i in range(self.taxels):
+            if force[i] > self.cell_contact:
+                return True
+            if force[i] > 0.0:
+                total += force[i]
+        return total > self.sole_contact
 
     def faults(self, force, saturation):
         """Masks (n,) of dead and of saturated taxels, as `plantar.health.dead_taxels` and `saturated_taxels`."""
@@ -245,15 +274,26 @@ class SoleKernel:
         tx = 0.0
         ty = 0.0
         area = 0.0
+        largest = 0.0
+        total = 0.0
         for i in range(self.taxels):
             f = values[i]
             if f >= saturation:
                 return None
+            if f > largest:
+                largest = f
+            if f > 0.0:
+                total += f
             if f > threshold:
                 fz += f
                 tx += f * self.lever_x[i]
                 ty += f * self.lever_y[i]
                 area += self.areas[i]
+        if self.noisy and threshold == self.level and not (largest > self.cell_contact or total > self.sole_contact):
+            fz = 0.0  # `touches`, in the same pass
+            tx = 0.0
+            ty = 0.0
+            area = 0.0
         sums = memory.new_vector(9)
         out = memory.room(sums)
         out[0] = 0.0

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES
 from plantar.errors import SceneError
 from plantar.gait.controller import Start, WalkingController
 from plantar.gait.controller_settings import ControllerSettings
@@ -74,6 +75,10 @@ def walker_of(
     legs = build_leg_model(robot, () if worn is None else (worn,))
     body = body_of(robot, legs.model)
     scene = scene.for_body(body)
+    noise = {"force": scene.sensing.force_noise}
+    robot = replace(
+        robot, layouts={s: replace(robot.layouts[s], noise={**robot.layouts[s].noise, **noise}) for s in SIDES}
+    )
     velocities = scene.walk.velocities(seed)
     start = placed(_start(scene, robot, velocities))
     skin = upper_body_skin_of(scene, robot, legs.model, body, worn)

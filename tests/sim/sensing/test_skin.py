@@ -9,11 +9,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from plantar import RobotError, hex_layout
+from plantar import Percept, RobotError, hex_layout
+from plantar.common.sides import SIDES
+from plantar.gait.command import Command, Sensors
 from plantar.sensing.force import center_of_pressure
 from plantar.sim.model.contact_truth import FootContacts, contact_wrench_in_frame, foot_contacts
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.skin import SkinSensor, SoleSkin
+
+from ..rates import drawn_seeds
 
 GRAVITY = 9.81
 MASS = 43.0
@@ -237,3 +243,28 @@ def test_corner_lifted_by_micrometres_stays_in_the_patch(gap, whole):
     assert force.sum() == pytest.approx(300.0)
     beyond = LAYOUT.positions[:, :2] @ (1.0 / HALF) < -0.3  # on the hovering corner's side of the diagonal
     assert (force[beyond].max() > 1.0) == whole
+
+
+@pytest.mark.parametrize("level", ["0", "2"])
+def test_a_walking_foot_in_the_air_touches_nothing(level):
+    """Fewer than one false contact in 10,000 samples: of a thousand, more than two come once in ten thousand walks."""
+    (seed,) = drawn_seeds(test_a_walking_foot_in_the_air_touches_nothing, 1, level)
+    simulation = Simulation(load_scene("flat", ["steps=3", "settle=0.3", "plant=random", f"level={level}"]), seed)
+    loaded = dict.fromkeys(SIDES, 0.0)
+    found: list[bool] = []
+    step = simulation.controller.step
+
+    def watched(sensors: Sensors) -> Command:
+        for side, load in zip(SIDES, simulation.judge.loads, strict=True):
+            if load > 0.0:
+                loaded[side] = sensors.time
+            elif sensors.time > loaded[side] + 0.03:  # longer than readings are late
+                percept = Percept(simulation.robot.layouts[side], sensors.readings[side])
+                found.append(bool(percept.active.any()))
+                assert found[-1] == (len(percept.support_polygon_in_sole) > 0)
+        return step(sensors)
+
+    simulation.controller.step = watched  # type: ignore[method-assign]
+    simulation.run()
+    assert len(found) > 300
+    assert sum(found) <= 2
