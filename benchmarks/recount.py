@@ -37,9 +37,9 @@ SHORT = {
     "beam": "steps=6",
     "stones": "steps=6",
     "uneven": "steps=6",
-    "slopes": "steps=6",
+    "slopes": "steps=8",
     "pebbles": "steps=6",
-    "mixed": "steps=6",
+    "mixed": "steps=8",
     "stairs": "steps=8",
     "push": "steps=6",
     "partial-front": "settle=0.3",
@@ -207,7 +207,8 @@ def recount(run: Recounted) -> set[str]:
         failed.add("ground_contact")
     if run.kept.legs:
         failed.add("collision")
-    if run.kept.outside > 1e-9:
+    strength = run.scene.push.strength
+    if run.kept.outside > 1e-9 or (strength > 0.0 and np.linalg.norm(run.kept.pushed) > 1.01 * strength):
         failed.add("outside_force")
     if _ripple(loads, states, landings, weight, period, world) > 0.02 and "fall" not in failed:
         failed.add("stance_force")
@@ -267,7 +268,7 @@ def _stands(loads: np.ndarray, states: np.ndarray, weight: float) -> list[Stand]
     for begin, last, foot in found:
         x, y, _, yaw = states[last, 5 + 4 * foot : 9 + 4 * foot]
         if merged and merged[-1][0] == foot:
-            merged[-1] = (foot, merged[-1][1], (x, y, yaw))
+            merged[-1] = (foot, begin, (x, y, yaw))  # a probe came before
         else:
             merged.append((foot, begin, (x, y, yaw)))
     return merged
@@ -282,6 +283,7 @@ def _taken(run: Recounted, stands: list[Stand]) -> int:
     period = run.world.period
     plain = run.scene.push.strength <= 0.0 and not run.ground.solids
     taken = 0
+    landed = 0.0
     for foot, begin, place in stands:
         if taken == len(steps):
             break
@@ -291,7 +293,7 @@ def _taken(run: Recounted, stands: list[Stand]) -> int:
         wanted = [_way(planned_before, planned)]
         said = [m for t, m in run.kept.moved if m.step == taken and t <= begin * period + 0.1]
         if said and not plain:
-            earlier = [m for t, m in run.kept.moved if m.step == taken - 1]
+            earlier = [m for t, m in run.kept.moved if m.step == taken - 1 and t <= landed]
             origin = (earlier[-1].x, earlier[-1].y, earlier[-1].yaw) if earlier else planned_before
             wanted += [_way(o, (m.x, m.y, m.yaw)) for m in said[-3:] for o in (origin, planned_before)]
         true = _way(true_before, place)
@@ -303,6 +305,7 @@ def _taken(run: Recounted, stands: list[Stand]) -> int:
             taken += 1
             planned_before = planned
             true_before = place
+            landed = begin * period + 0.1
     return taken
 
 

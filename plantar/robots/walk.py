@@ -55,6 +55,8 @@ class Walk(Settings):
         confidence: Keep the robot's own steps (1) or follow a push (0), within balance (`step_adjustment.confidence`).
         yielding: How far steps follow a push (`step_adjustment.yielding`).
         led: Whether a person leads it by its arm: proximity to its skin is no push then.
+        transfer: Share of each double support over which the VRP moves from foot to foot; 0 lets it jump in the middle,
+            as papers plan it that keep it constant over a step (T 4.14).
         settle: Standing time simulated after the walk.
         begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
         velocity: Velocity [forward, left, turn] in m/s, m/s and rad/s, or texts with units, instead of a number of
@@ -85,6 +87,7 @@ class Walk(Settings):
     confidence: float = number(0.0, "1", 0, 1)
     yielding: float = number(0.0, "1", 0, 2)
     led: bool = switch(False)
+    transfer: float = number(1.0, "1", 0, 1)
     settle: float = number(2.0, "s", 0, 600)
     begin: float = number(1.0, "s", 1, 60)
     velocity: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
@@ -224,4 +227,4 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
         if walk.approach_height > 0.0 and not robot.rocks and not stated[0]:
             single = max(single, robot.approach_support)
     start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
-    return Timing(single, double, start, end, walk.settle)
+    return Timing(single, double, start, end, walk.settle, walk.transfer)

@@ -1,4 +1,4 @@
-"""Balance feedback: DCM error moves the desired ZMP, ZMP error moves the CoM reference (T 4.17-4.20, 4.27-4.29)."""
+"""Balance feedback: DCM error moves the desired ZMP, ZMP error moves the CoM reference (T 4.17-4.18, 4.27-4.29)."""
 
 from collections import Counter
 from collections.abc import Mapping

@@ -15,6 +15,7 @@ from plantar.geometry.polygon import area, centroid, signed_margin
 from plantar.kernels.gait.carried_load import mark_carried, take_in
 from plantar.kernels.gait.seen_depth import SeenDepth
 from plantar.layouts.layout import SoleLayout
+from plantar.sensing.activation import TaxelActivation
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading
 
@@ -31,6 +32,8 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
             nothing.
         model_error: Allowed force misfit, as a share of the largest force.
         remember: Whether a foot without sight presumes the last foothold's edges.
+        fit: Whether edges are fitted to the loads; without, the contact polygon is the convex hull of the cells of
+            active taxels, as printed (T 4.22, 4.24), by thresholds from their noise.
     """
 
     minimum_load: float = fixed(0.107, "weight")  # Vertical force in N from which taxels count
@@ -67,6 +70,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     # Time in s before the planned touchdown from which it is too late for that
     foresee_least: float = fixed(0.283, "beat")
     remember: bool = switch(True)
+    fit: bool = switch(True)
     watch: float = fixed(0.607, "beat")  # Time in s into single support until which it is refined
 
 
@@ -86,6 +90,10 @@ class StanceContact:
         highest = sensing_range - _IN_SIGHT * settings.step_down
         self._sight = SeenDepth(len(layout), settings.least_seen, highest, settings.deep, settings.sight)
         self._depth = np.asarray(self._sight.depth)
+        high = max(layout.contact_levels.cell, layout.force_threshold)
+        taxels = TaxelActivation(high, layout.force_threshold, layout.force_limit)
+        self._taxels = None if settings.fit else taxels
+        self._active: NDArray[np.bool_] | None = None
         self.lift()
 
     def lift(self) -> None:
@@ -111,6 +119,8 @@ class StanceContact:
         self._time = -1.0
         self._slope = np.zeros(2)
         self._fit.reset()
+        if self._taxels is not None:
+            self._taxels.reset()
 
     @property
     def whole(self) -> bool:
@@ -141,6 +151,8 @@ class StanceContact:
         if slope is not None:
             self._slope = self._slope + (s.smoothing if self._count else 1.0) * (slope - self._slope)
         self._count += 1
+        if self._taxels is not None:
+            self._active = self._taxels.update(reading.force)
         # The sum of the weights, for a mean that is right from the first reading on.
         self._weight = s.forgetting * self._weight + 1.0
         # The first reading begins the mean; from zero it would take long to rise. A dead taxel is a taxel without load,
@@ -200,6 +212,8 @@ class StanceContact:
         return self._edges
 
     def _find(self) -> bool:
+        if self._active is not None:
+            return self._take_cells(self._active)
         s = self.settings
         mean = self._sum / self._weight
         first = not self.settled
@@ -234,6 +248,21 @@ class StanceContact:
         self.polygon_in_sole = polygon
         self.lines = lines
         return first or polygon is not before
+
+    def _take_cells(self, active: NDArray[np.bool_]) -> bool:
+        """Take the hull of `active` cells (n,) (T 4.24) for the contact polygon."""
+        first = not self.settled
+        self.settled = True
+        polygon, size, _, _ = self.layout.kernel.hull(active)
+        if len(polygon) < 3:
+            return first
+        ratio = size / self._whole_area
+        whole = ratio > self.settings.full_ratio
+        if whole and self.whole:
+            return first
+        self.area_ratio = 1.0 if whole else ratio
+        self.polygon_in_sole = self.layout.outline if whole else polygon
+        return True
 
     def _from_loads(self, mean: NDArray[np.float64]) -> NDArray[np.float64]:
         """Edges (m, 3) as remembered unless loads contradict; else by loads."""

@@ -31,6 +31,8 @@ class Timing(Settings):
         start: First double support, shifting weight to the first stance foot.
         end: Last double support, returning weight between the feet.
         settle: Standing after the last step.
+        transfer: Share of a double support over which the VRP moves from foot to foot, about its middle; 0 lets it jump
+            there, so that it is constant over a step (T 4.14).
     """
 
     single_support: float = number(0.9, "s", 0.2, 10)
@@ -38,6 +40,7 @@ class Timing(Settings):
     start: float = number(1.2, "s", 0.2, 60)
     end: float = number(1.0, "s", 0.2, 60)
     settle: float = number(2.0, "s", 0, 600)
+    transfer: float = number(1.0, "1", 0, 1)
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ _AT_REST = 4.04  # beats of standing before the first weight shift, and after th
 _REBUILT = 4  # stances that a replan builds again; later ones keep what they have
 _REMEMBERED = 4  # steps behind the current one that a plan without an end keeps
 _RECORDED = 1000  # changes that the record keeps
+_JUMP = 1e-3  # s: what a VRP that jumps takes, since knots follow each other in time
 
 
 def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:
@@ -99,18 +100,38 @@ class PlanView:
         times: list[float] = []
         points: list[NDArray[np.float64]] = []
         rest = _AT_REST * self.schedule.timing.body.beat
-        for phase in self.schedule.phases[self.schedule.index(time) :]:
+        phases = self.schedule.phases
+        begin = self.schedule.index(time)
+        if self._kept(phases[begin]) > 0.0 and begin > 0:
+            begin -= 1  # the foot before carries on into this double support
+        for i in range(begin, len(phases)):
+            phase = phases[i]
+            begun = self._kept(phases[i - 1]) if i > 0 else 0.0
+            more = self._kept(phases[i + 1]) if i + 1 < len(phases) else 0.0
             if phase.kind == PhaseKind.SINGLE_SUPPORT:
                 if phase.step >= last:
                     return times, points
                 vrp = self.stance_vrp(phase.step)
-                times += [phase.start, phase.end]
-                points += [vrp, vrp]
+                knots = [phase.start - begun, phase.end + more]
             elif phase.kind == PhaseKind.STANDING and math.isfinite(phase.start):
                 vrp = self.middle(phase.step)
-                times += [phase.start, min(phase.end, phase.start + rest)]
-                points += [vrp, vrp]
+                knots = [phase.start - begun, min(phase.end, phase.start + rest) + more]
+            elif phase.kind == PhaseKind.STANDING and more > 0.0:
+                vrp = self.middle(phase.step)
+                knots = [phase.end + more]
+            else:
+                continue
+            times += knots
+            points += [vrp] * len(knots)
         return times, points
+
+    def _kept(self, phase: Phase) -> float:
+        """Time in s at either end of a double support for which the VRP stays over the feet before and after."""
+        share = self.schedule.timing.transfer
+        if share == 1.0 or phase.kind != PhaseKind.DOUBLE_SUPPORT:
+            return 0.0
+        length = phase.end - phase.start
+        return 0.5 * (length - max(share * length, min(_JUMP, length)))
 
 
 class WalkPlan:

@@ -86,7 +86,7 @@ class FootholdCarries:
         return float(np.ptp(ground)) < _NARROW * float(np.ptp(sole))
 
     def _over(self, found: FootholdFound, tick: Tick) -> PlanChange | None:
-        if found.step < tick.plan.first:
+        if found.step < tick.plan.first or not self._rules.move_vrp:
             return None
         shift, vrp_shift = self._moved_steps(found, tick)
         x, y = found.vrp.tolist()
@@ -107,7 +107,7 @@ class FootholdCarries:
         upcoming = found.step + 1
         phase = tick.phase
         begun = phase.step == upcoming and phase.kind == PhaseKind.SINGLE_SUPPORT
-        if begun or upcoming >= tick.plan.count:
+        if begun or upcoming >= tick.plan.count or not self._rules.move_steps:
             return (0.0, 0.0), (0.0, 0.0)
         if not self._strip.known:
             shift = self._into_reach(found, tick)

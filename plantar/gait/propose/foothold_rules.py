@@ -1,11 +1,19 @@
 """Limits of plan moves by unexpected footholds."""
 
 from plantar.common.settings.part import Part
-from plantar.common.settings.schema import fixed
+from plantar.common.settings.schema import fixed, switch
 
 
 class FootholdRules(Part, table="foothold", needs={"control.footholds": ("force", "skin")}):
-    """When unexpected footholds move the plan, and how far."""
+    """When unexpected footholds move the plan, and how far.
+
+    Attributes:
+        move_vrp: Whether the VRP moves to where a foothold carries (T 4.4.2); without, that only bounds the ZMP.
+        move_steps: Whether later footsteps move onto the strip that carries, or so that ankles come over it.
+    """
+
+    move_vrp: bool = switch(True)
+    move_steps: bool = switch(True)
 
     # Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved
     least_move: float = fixed(0.016, "sole")

@@ -18,7 +18,9 @@ class FootholdSeenAhead:
     def propose(self, tick: Tick) -> PlanChange | None:
         """VRP over what is seen, if not as planned."""
         seen = tick.seen
-        if seen is None or math.dist(seen.vrp, tick.plan.vrp(seen.step)) < self._rules.least_move:
+        if seen is None or not self._rules.move_vrp:
+            return None
+        if math.dist(seen.vrp, tick.plan.vrp(seen.step)) < self._rules.least_move:
             return None
         x, y = seen.vrp.tolist()
         return PlanChange("foothold seen", seen.step, vrp=(x, y))

@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -6,7 +7,7 @@ import pytest
 from plantar import hex_layout
 from plantar.errors import InputError
 from plantar.gait.contact.stance_contact import ContactSettings, StanceContact
-from plantar.geometry.polygon import area, centroid
+from plantar.geometry.polygon import area, centroid, signed_margin
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading
 
@@ -227,3 +228,22 @@ def test_what_a_cover_carries_along_is_no_ground(monkeypatch):
     true = area(FIT.polygon(strip)) / area(FIT.polygon(WHOLE))
     assert abs(found[0] - true) < abs(found[1] - true)
     assert found[0] == pytest.approx(true, abs=0.1)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_as_printed_the_contact_polygon_is_the_hull_of_the_active_cells(seed):
+    """T 4.22, 4.24: of all cells that once exceeded the level of their noise and still carry, nothing fitted."""
+    sole = replace(SOLE, noise={"force": 1.47})
+    contact = StanceContact(sole, ContactSettings(fit=False, remember=False))
+    rng = np.random.default_rng(seed)
+    expected = FIT.expected(300.0, (-0.06, 0.0), REAR)
+    for k in range(3):
+        forces = np.clip(expected + rng.normal(0.0, 1.47, len(SOLE)), 0.0, None)
+        contact.update(Reading(0.004 * (k + 1), forces), 300.0)
+    loaded = expected > sole.contact_levels.cell + 6.0 * 1.47
+    corners = np.concatenate([sole.cell_polygon(int(i)) for i in np.flatnonzero(loaded)])
+    assert contact.settled
+    assert min(signed_margin(contact.polygon_in_sole, corner) for corner in corners) > -1e-9
+    known = {tuple(v) for v in sole.vertices[:, :2].round(9).tolist()}
+    assert {tuple(v) for v in contact.polygon_in_sole.round(9).tolist()} <= known
+    assert contact.lines.shape == (0, 3)

@@ -299,3 +299,38 @@ def test_a_moved_foothold_keeps_the_height_that_was_planned():
     plan.apply(PlanChange("farther", 2, foothold=there), 1.5, np.empty((0, 2)))
     assert plan.view.foothold(2) == replace(there, z=steps[2].z)
     assert plan.view.foothold(2).z > 0.1
+
+
+def test_without_a_transfer_the_vrp_is_constant_over_a_step():
+    """T 4.14-4.15 (corrected), waypoint by waypoint, each step t_ss + t_ds long (T 4.16)."""
+    feet, steps = straight_plan(6, length=0.2)
+    timing = Timing(transfer=0.0)
+    plan = WalkPlan(feet, steps, timing, CENTER, OMEGA, 1.0)
+    singles = [p for p in plan.schedule.phases if p.kind == PhaseKind.SINGLE_SUPPORT]
+    length = timing.single_support + timing.double_support
+    begins = [p.start - 0.5 * timing.double_support for p in singles]
+    vrps = [plan.view.stance_vrp(p.step) for p in singles]
+    for i in range(1, len(singles) - 2):
+        after = plan.at(begins[i + 1] + length).dcm
+        waypoint = vrps[i + 1] + np.exp(-OMEGA * length) * (after - vrps[i + 1])  # T 4.14
+        assert plan.at(begins[i + 1]).dcm == pytest.approx(waypoint, abs=1e-3)  # the jump takes a millisecond
+        for time in (0.1, 0.5 * length, length - 0.1):
+            found = plan.at(begins[i] + time)
+            assert found.vrp == pytest.approx(vrps[i], abs=1e-12)
+            assert found.dcm == pytest.approx(
+                vrps[i] + np.exp(OMEGA * (time - length)) * (waypoint - vrps[i]), abs=1e-3
+            )
+
+
+@pytest.mark.parametrize("transfer", [0.0, 0.3, 1.0])
+def test_a_change_keeps_a_jumping_vrps_dcm_without_a_jump(transfer):
+    feet, steps = straight_plan(8, length=0.0, sideways=0.08)
+    for late in (-0.3, 0.02, 0.14, 0.16, 0.28):
+        plan = WalkPlan(feet, steps, Timing(transfer=transfer), CENTER, OMEGA, 1.0)
+        phase = next(p for p in plan.schedule.phases if p.kind == PhaseKind.DOUBLE_SUPPORT and p.step == 4)
+        before = plan.at(phase.start + late)
+        applied = moved(plan, 3, (0.02, 0.01), phase.start + late, WIDE)
+        after = plan.at(phase.start + late)
+        assert after.com == pytest.approx(before.com, abs=1e-9)
+        assert after.dcm + np.array(applied.gap) == pytest.approx(before.dcm, abs=1e-9)
+        assert np.hypot(*applied.gap) < 0.02

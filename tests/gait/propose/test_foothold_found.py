@@ -162,3 +162,18 @@ def test_a_foothold_that_is_seen_moves_the_vrp_of_the_step_in_the_air(plan_of, t
     close = FootholdSeen(0, "left", plan.view.vrp(0) + np.array([0.002, 0.0]))
     assert FootholdSeenAhead(RULES).propose(tick_at(plan, time, seen=close)) is None
     assert FootholdSeenAhead(RULES).propose(tick_at(plan, time)) is None
+
+
+def test_what_a_foothold_moves_can_be_switched_off(plan_of, tick_at):
+    def change(**settings):
+        plan = plan_of()
+        rules = FootholdRules(**settings)
+        asked = FootholdCarries(rules, MIDDLES, OUTLINES, SupportStrip(np.zeros(2), np.array([0.0, 1.0])), 0.1)
+        here = replace(found(plan, 2, (0.0, 0.0)), vrp=plan.view.foothold(2).position[:2] + np.array([0.07, 0.0]))
+        return asked.propose(tick_at(plan, double_support(plan, 2), found=(here,))), here
+
+    both, _ = change()
+    assert both.shift != (0.0, 0.0)
+    stays, here = change(move_steps=False)
+    assert (stays.shift, stays.vrp) == ((0.0, 0.0), tuple(here.vrp))
+    assert change(move_vrp=False)[0] is None
