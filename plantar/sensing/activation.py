@@ -73,7 +73,7 @@ def active_of(layout: SoleLayout, force: ArrayLike, threshold: float | None = No
     pressed = np.where(given > 0.0, given, 0.0)  # without NaN
     with np.errstate(over="ignore"):
         total = pressed.sum(axis=-1, keepdims=True)
-    return above & ((pressed.max(axis=-1, keepdims=True) > cell) | (total > sole))
+    return np.asarray(above & ((pressed.max(axis=-1, keepdims=True) > cell) | (total > sole)))
 
 
 class TaxelActivation:
