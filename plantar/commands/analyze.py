@@ -108,10 +108,50 @@ class AnalysisOrder:
         return Subject(self.participant, self.mass, self.foot_length)
 
 
+@dataclass(frozen=True)
+class StudyOrder:
+    """Options for a folder of recordings: what is compared."""
+
+    factor: list[str] | None = _option(  # noqa: RUF009
+        None,
+        "What is compared: condition, side, affected, or a column of the table; repeatable. Default: condition.",
+        metavar="NAME",
+    )
+    covariate: list[str] | None = _option(  # noqa: RUF009
+        None, "Column or measure that is allowed for, as speed or age; repeatable.", metavar="NAME"
+    )
+    margin: float | None = _option(
+        None, "Call differences up to this share of the mean equivalent, in percent, by two one-sided tests."
+    )
+    devices: str | None = _option(None, "Column of two devices, whose agreement is stated.", metavar="COLUMN")
+    patient: str | None = _option(None, "Participant who is compared with the others, on a sheet.", metavar="NAME")
+    norm: str | None = _option(None, "Condition or group that the patient is compared with. Default: all others.")
+    mixed: bool = _option(False, "Fit mixed models of single steps, too (needs statsmodels).")
+    xlsx: bool = _option(False, "Write study.xlsx, with a sheet of definitions, too (needs XlsxWriter).")
+    jobs: int = _option(1, "Processes that measure recordings.")
+
+    def plan(self) -> Any:
+        """The `StudyOptions`."""
+        from plantar.gait.analysis.study.study_options import StudyOptions
+
+        return StudyOptions(
+            tuple(self.factor or ("condition",)),
+            tuple(self.covariate or ()),
+            self.margin,
+            self.devices,
+            self.patient,
+            self.norm,
+            self.mixed,
+            self.xlsx,
+            self.jobs,
+        )
+
+
 @with_option_groups
 def analyze(
     file: FileOrder,
     order: AnalysisOrder,
+    study: StudyOrder,
     recording: Annotated[
         Path | None,
         Argument(
@@ -162,6 +202,10 @@ def analyze(
 
     Example: plantar analyze recordings/ --participants table.csv -o out/study
 
+    Example: plantar analyze recordings/ --participants table.csv --factor shoe --factor side --covariate speed
+
+    Example: plantar analyze recordings/ --participants table.csv --patient P07 --norm healthy
+
     Of a folder, every recording is measured; steps.csv, recordings.csv and comparison.csv hold all of them, study.html
     compares the conditions, and a study that was stopped goes on where it was.
     """
@@ -173,8 +217,10 @@ def analyze(
     if recording is not None and is_study_folder(recording):
         if export:
             raise InputError("--export is for one recording; a study's tables are CSV files")
-        _analyze_study(recording, participants, file, order, output, as_json, drawn)
+        _analyze_study(recording, participants, file, order, study, output, as_json, drawn)
         return
+    if study != StudyOrder():
+        raise InputError("--factor to --jobs are for a folder of recordings: plantar analyze recordings/")
     if participants is not None:
         raise InputError(
             "--participants is for a folder of recordings: plantar analyze recordings/ --participants table.csv"
@@ -247,6 +293,7 @@ def _analyze_study(
     participants: Path | None,
     file: FileOrder,
     order: AnalysisOrder,
+    plan: StudyOrder,
     output: Path,
     as_json: bool,
     figures: bool,
@@ -261,7 +308,16 @@ def _analyze_study(
     if order.subject() != Subject():
         raise InputError("--participant, --mass and --foot-length are for one recording: a study has --participants")
     with progress_bar() as progress:
-        study = run_study(folder, output, participants, progress, choices=choices, options=options, figures=figures)
+        study = run_study(
+            folder,
+            output,
+            participants,
+            progress,
+            choices=choices,
+            options=options,
+            figures=figures,
+            plan=plan.plan(),
+        )
     summary = study.summary() | {"files": list(study.files)}
     text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
     end_command(summary, as_json, text + file_lines(study.files))

@@ -12,7 +12,15 @@ from plantar.common.gravity import GRAVITY
 from plantar.gait.analysis.compare import unlike
 from plantar.gait.analysis.measures import COMPARED
 from plantar.gait.analysis.study.designs import Contrast, Design, any_differ, compare_levels
-from plantar.gait.analysis.study.measured_table import Cell, cells_of, means, measure_keys, participants_of
+from plantar.gait.analysis.study.measured_table import (
+    Cell,
+    Foot,
+    cells_of,
+    level_of,
+    means,
+    measure_keys,
+    participants_of,
+)
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import Effect, adjusted, effect_of, with_margin
 
@@ -164,11 +172,12 @@ def _compared(
         np.array([[cell.covariate(name) for name in covariates] for cell in cells]).reshape(len(cells), -1),
         within,
     )
-    effects, omnibus = _effects(cells, design, margin_percent)
-    unit, curves = _curves(cells)
+    keys = measure_keys(cells)
+    effects, omnibus = _effects(means(cells, keys), keys, design, margin_percent)
+    unit, curves = mean_curves(cells)
     line = None if curves is None else np.ones(curves.shape[1], dtype=bool)
     curve_tests = None if curves is None else compare_levels(curves, design, line)
-    maps, places = _maps(cells)
+    maps, places = mean_maps(cells)
     map_tests = None
     if maps is not None and places is not None:
         map_tests = compare_levels(maps[:, places], design, places, MAP_PERMUTATIONS)
@@ -199,14 +208,12 @@ def _compared(
 
 
 def _effects(
-    cells: Sequence[Cell], design: Design, margin_percent: float | None
+    values: NDArray[np.float64], keys: Sequence[str], design: Design, margin_percent: float | None
 ) -> tuple[list[dict[str, Effect]], dict[str, AnyDifference]]:
     """Effects of each pair of levels by measure, and whether any levels differ."""
-    keys = measure_keys(cells)
     pairs = list(combinations(range(design.levels), 2))
     if not keys:
         return [{} for _ in pairs], {}
-    values = means(cells, keys)
     out = []
     for contrast in compare_levels(values, design):
         a, b = (values[design.level == level] for level in (contrast.a, contrast.b))
@@ -226,7 +233,51 @@ def _effects(
     return out, {key: AnyDifference(f, test.freedom, p, p_all) for key, f, p, p_all in rows}
 
 
-def _curves(cells: Sequence[Cell]) -> tuple[str, NDArray[np.float64] | None]:
+def compare_changes(results: Sequence[RecordingResult], factor: str, other: str) -> list[Comparison]:
+    """Returns whether the difference of every two levels of a factor depends on another factor, as one family.
+
+    The change of each participant is compared between the levels of the other factor: their interaction.
+    """
+    feet = cells_of(results, other)
+    split = {cell: _by_level(cell, factor) for cell in feet}
+    levels = list(dict.fromkeys(level for own in split.values() for level in own))
+    whole = [cell for cell in feet if len(split[cell]) == len(levels)]
+    if len(levels) < 2 or len(levels) > MOST_LEVELS or not whole:
+        return []
+    chosen, groups, within, notes = _chosen(whole, list(dict.fromkeys(cell.level for cell in whole)))
+    if notes or len(groups) < 2 or len(groups) > MOST_LEVELS:
+        return []
+    pairs = list(combinations(levels, 2))
+    keys = measure_keys([part for cell in chosen for part in split[cell].values()])
+    values = {level: means([split[cell][level] for cell in chosen], keys) for level in levels}
+    changes = np.hstack([values[b] - values[a] for a, b in pairs])
+    names = list(dict.fromkeys(cell.participant for cell in chosen))
+    design = Design(
+        np.array([names.index(cell.participant) for cell in chosen]),
+        np.array([groups.index(cell.level) for cell in chosen]),
+        np.zeros((len(chosen), 0)),
+        within,
+    )
+    labels = [f"{i}/{key}" for i in range(len(pairs)) for key in keys]
+    effects, _ = _effects(changes, labels, design, None)
+    out = []
+    for (one, two), own in zip(combinations(groups, 2), effects, strict=True):
+        for i, (a, b) in enumerate(pairs):
+            part = {key: own[f"{i}/{key}"] for key in keys if f"{i}/{key}" in own}
+            name = f"{b} less {a}" if len(pairs) > 1 or factor != "condition" else f"change from {a} to {b}"
+            out.append(Comparison(one, two, within, part, factor=f"{other} ({name})", levels=tuple(groups)))
+    return out
+
+
+def _by_level(cell: Cell, factor: str) -> dict[str, Cell]:
+    groups: dict[str, list[Foot]] = {}
+    for foot in cell.feet:
+        if level := level_of(foot, factor):
+            groups.setdefault(level, []).append(foot)
+    return {level: Cell(cell.participant, level, feet) for level, feet in groups.items()}
+
+
+def mean_curves(cells: Sequence[Cell]) -> tuple[str, NDArray[np.float64] | None]:
     """Unit and mean vertical force curves (cells, 101); None where a cell has none."""
     everyone = [foot for cell in cells for foot in cell.feet]
     if not all(any(side in r.curves for r, side in c.feet) for c in cells) or len({r.raw for r, _ in everyone}) > 1:
@@ -245,7 +296,7 @@ def _curves(cells: Sequence[Cell]) -> tuple[str, NDArray[np.float64] | None]:
     return "% of body weight" if weighed else "counts" if raw else "N", np.array([curve(cell) for cell in cells])
 
 
-def _maps(cells: Sequence[Cell]) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_] | None]:
+def mean_maps(cells: Sequence[Cell]) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_] | None]:
     """Mean maps of cells in Pa, and the places that every one has; None where a cell has none."""
     everyone = [foot for cell in cells for foot in cell.feet]
     if not all(any(side in r.maps for r, side in c.feet) for c in cells) or len({r.raw for r, _ in everyone}) > 1:

@@ -25,6 +25,7 @@ from plantar.gait.analysis.study.statistics import student_quantile
 PERMUTATIONS = 2000
 _SEED = 1
 _BLOCK = 2_000_000  # Values that are permuted together
+_SPREAD = 1e-10  # Share of a value below which differences are rounding
 _ROUNDING = 1e-9  # Share of a statistic that is rounding: a permuted one this much below the observed one equals it
 
 
@@ -255,7 +256,9 @@ def _scaled(columns: NDArray[np.float64]) -> NDArray[np.float64]:
 def _residuals(values: NDArray[np.float64], design: Design) -> NDArray[np.float64]:
     q = design.nuisance
     centred = values - values.mean(axis=0)
-    return np.asarray(centred - q @ (q.T @ centred))
+    rest = centred - q @ (q.T @ centred)
+    rounding = _SPREAD * np.abs(values).max(axis=0, initial=0.0)
+    return np.where(np.abs(rest).max(axis=0, initial=0.0) <= rounding, 0.0, rest)
 
 
 def _largest(

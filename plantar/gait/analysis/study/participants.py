@@ -31,7 +31,7 @@ _ALIKE = {
     "condition": r"(?:condition|group|cohort|shoe|task|footwear)s?(?:_?(?:id|name))?",
     "mass_kg": r"(?:body_?)?(?:mass|weight)(?:_\w*)?|kg|lbs?",
     "foot_length_m": r"(?:foot|shoe)_?(?:length|size)(?:_\w*)?",
-    "side": r"(?:\w+_)?side|foot|leg|limb",
+    "side": r"(?!affected_|involved_)(?:\w+_)?side|foot|leg|limb",
     "unit": r"units?(?:_\w*)?",
     "rate_hz": r"(?:sampl\w*_?|frame_?)?(?:rate|frequency|freq|fs)(?:_\w*)?",
 }

@@ -4,9 +4,10 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,15 @@ from plantar.formats import ReadOptions, formats
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.results import as_data_frame
-from plantar.gait.analysis.study.compare_conditions import Comparison, compare_conditions, outliers
+from plantar.gait.analysis.study.compare_conditions import (
+    Comparison,
+    compare_changes,
+    compare_conditions,
+    outliers,
+)
+from plantar.gait.analysis.study.measured_table import check_names
+from plantar.gait.analysis.study.mixed_models import MixedEffect, mixed_effects
+from plantar.gait.analysis.study.one_against_group import OneAgainstGroup, one_against_group
 from plantar.gait.analysis.study.one_recording import (
     RecordingResult,
     digest_of,
@@ -31,10 +40,16 @@ from plantar.gait.analysis.study.one_recording import (
     write_result,
 )
 from plantar.gait.analysis.study.participants import Participation, not_read, read_participants
-from plantar.gait.analysis.study.study_page import study_figures, study_page
+from plantar.gait.analysis.study.patient_page import patient_figures, patient_page
+from plantar.gait.analysis.study.reliability import Agreement, Reliability, agreements, reliabilities
+from plantar.gait.analysis.study.sample_size import people_needed
+from plantar.gait.analysis.study.study_options import StudyOptions
+from plantar.gait.analysis.study.study_page import StudyParts, study_figures, study_page
+from plantar.gait.analysis.study.workbook import write_workbook
 
 _CACHE = "measured"  # Folder in the output folder that holds the result of each recording
 _SKIPPED_FORMATS = ("image",)
+_ALWAYS = ("steps", "recordings", "comparison")  # Tables that are written without rows, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +64,36 @@ class Study:
     comparisons: Sequence[Comparison]
     choices: AnalysisOptions
     files: Sequence[str] = ()
+    plan: StudyOptions = field(default_factory=StudyOptions)
+
+    @cached_property
+    def changes(self) -> list[Comparison]:
+        """Of every two factors, whether the difference of the first depends on the second."""
+        return [c for one, two in combinations(self.plan.factors, 2) for c in compare_changes(self.results, one, two)]
+
+    @cached_property
+    def reliability(self) -> dict[str, dict[str, Reliability]]:
+        """Reliability of each measure over repeated trials, by condition."""
+        return reliabilities(self.results)
+
+    @cached_property
+    def agreement(self) -> tuple[tuple[str, str], Mapping[str, Agreement]]:
+        """The two devices, and their agreement by measure."""
+        return agreements(self.results, self.plan.devices) if self.plan.devices else (("", ""), {})
+
+    @cached_property
+    def patient(self) -> OneAgainstGroup | None:
+        """The chosen participant against the others."""
+        if self.plan.patient is None:
+            return None
+        return one_against_group(self.results, self.plan.patient, self.plan.norm)
+
+    @cached_property
+    def mixed(self) -> list[MixedEffect]:
+        """Effects of the factors by mixed models of single steps, if chosen."""
+        if not self.plan.mixed:
+            return []
+        return [e for factor in self.plan.factors for e in mixed_effects(self.results, factor, self.plan.covariates)]
 
     @cached_property
     def steps(self) -> dict[str, NDArray[Any]]:
@@ -63,7 +108,7 @@ class Study:
         """Study's page as one HTML text, also written to `path` if given."""
         with tempfile.TemporaryDirectory() as folder:
             figures = write_figures(study_figures(self.comparisons), Path(folder))
-            page = study_page(self.summary(), self.results, self.comparisons, figures, "study")
+            page = study_page(self.summary(), self.results, self.comparisons, figures, "study", self.more())
         if path is not None:
             write_text(Path(path), page)
         return page
@@ -76,6 +121,36 @@ class Study:
         """Compared measures as columns: conditions, difference, effect size, intervals and probabilities."""
         return _columns(_effect_rows(self))
 
+    def more(self) -> StudyParts:
+        """What the page has beside comparisons."""
+        return StudyParts(self.changes, self.reliability, self.agreement, self.mixed)
+
+    def tables(self) -> dict[str, list[dict[str, Any]]]:
+        """Rows of the study's tables by name; those without rows are left out."""
+        devices, agreed = self.agreement
+        patient = self.patient
+        known = {
+            "steps": _step_rows(self),
+            "recordings": _recording_rows(self),
+            "comparison": _effect_rows(self),
+            "changes": [row for c in self.changes for row in _rows_of(c)],
+            "reliability": [
+                {"condition": condition, "measure": key, **asdict(found)}
+                for condition, rows in self.reliability.items()
+                for key, found in rows.items()
+            ],
+            "agreement": [
+                {"a": devices[0], "b": devices[1], "measure": key, **asdict(found)} for key, found in agreed.items()
+            ],
+            "mixed": [asdict(effect) for effect in self.mixed],
+            "patient": [
+                {"participant": patient.participant if patient else "", "side": side, "measure": key, **asdict(found)}
+                for side, rows in (() if patient is None else patient.measures.items())
+                for key, found in rows.items()
+            ],
+        }
+        return {name: rows for name, rows in known.items() if rows or name in _ALWAYS}
+
     def summary(self) -> dict[str, Any]:
         """Study as plain values of study.json."""
         return {
@@ -87,8 +162,10 @@ class Study:
             "conditions": list(dict.fromkeys(r.who.condition for r in self.results if r.who.condition)),
             "steps": sum(len(r.rows) for r in self.results),
             "options": asdict(self.choices),
+            "plan": {key: value for key, value in asdict(self.plan).items() if key != "jobs"},
             "version": VERSION,
             "comparisons": [_plain(c) for c in self.comparisons],
+            "changes": [_plain(c) for c in self.changes],
             "outliers": [o._asdict() for o in outliers(self.results)],
         }
 
@@ -102,10 +179,12 @@ def run_study(
     choices: AnalysisOptions | None = None,
     options: ReadOptions | None = None,
     figures: bool = True,
+    plan: StudyOptions | None = None,
 ) -> Study:
     """Measure a folder's recordings; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
 
-    Results of equal options and version are reused. Unreadable recordings are rows with the reason.
+    Where the study has them, also changes.csv, reliability.csv, agreement.csv, mixed.csv, patient.csv, patient.html and
+    study.xlsx. Results of equal options and version are reused. Unreadable recordings are rows with the reason.
 
     Args:
         folder: With its subfolders.
@@ -113,6 +192,7 @@ def run_study(
         participants: Table of `read_participants`; nothing is compared without it.
         progress: As of `analyse_recording`, like `choices` and `figures`.
         options: Known of all files; the table overrides.
+        plan: What is compared and allowed for.
 
     Returns:
         The study.
@@ -125,6 +205,7 @@ def run_study(
     root = Path(folder)
     target = Path(out)
     chosen = choices or AnalysisOptions()
+    planned = plan or StudyOptions()
     chosen.of_several("a study has")
     listed = [] if participants is None else read_participants(participants)
     # A file's own name may begin or end with blanks.
@@ -137,11 +218,18 @@ def run_study(
     cache = target / _CACHE
     cache.mkdir(parents=True, exist_ok=True)
     results = []
-    for i, who in enumerate(everything):
-        report(0.9 * i / len(everything), f"{i + 1} of {len(everything)}: {who.file}")
-        results.append(_result(root, cache, who, chosen, options))
+    for i, result in enumerate(_measured(root, cache, everything, chosen, options, planned.jobs), 1):
+        report(0.9 * i / len(everything), f"{i} of {len(everything)}: {result.who.file}")
+        results.append(result)
     report(0.9, "comparing")
-    study = Study(results, compare_conditions(results), chosen)
+    if participants is not None:
+        check_names(results, planned.factors if planned.factors != ("condition",) else (), planned.covariates)
+    comparisons = [
+        comparison
+        for factor in planned.factors
+        for comparison in compare_conditions(results, factor, planned.covariates, planned.margin_percent)
+    ]
+    study = Study(results, comparisons, chosen, plan=planned)
     files = _write(study, target, root, figures)
     report(1.0, "done")
     return replace(study, files=files)
@@ -163,6 +251,29 @@ def _others(
             continue
         out.append(Participation(file=name, participant=path.stem, listed=False))
     return out
+
+
+def _measured(
+    root: Path,
+    cache: Path,
+    everything: Sequence[Participation],
+    choices: AnalysisOptions,
+    options: ReadOptions | None,
+    jobs: int,
+) -> Iterator[RecordingResult]:
+    """Results in the order of recordings, measured by one process or several; each is kept as soon as it is known."""
+    if jobs == 1:
+        yield from (_result(root, cache, who, choices, options) for who in everything)
+        return
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    with ProcessPoolExecutor(jobs, get_context("spawn")) as pool:
+        waiting = [pool.submit(_result, root, cache, who, choices, options) for who in everything]
+        try:
+            yield from (one.result() for one in waiting)
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
 
 
 def _result(
@@ -222,10 +333,14 @@ def _recording_rows(study: Study) -> list[dict[str, Any]]:
 
 
 def _effect_rows(study: Study) -> list[dict[str, Any]]:
+    return [row for c in study.comparisons for row in _rows_of(c)]
+
+
+def _rows_of(comparison: Comparison) -> list[dict[str, Any]]:
+    names = {"factor": comparison.factor, "a": comparison.a, "b": comparison.b}
     return [
-        {"factor": c.factor, "a": c.a, "b": c.b, "measure": key, **asdict(effect)}
-        for c in study.comparisons
-        for key, effect in c.effects.items()
+        {**names, "measure": key, **asdict(effect), "people_for_80_percent": people_needed(effect)}
+        for key, effect in comparison.effects.items()
     ]
 
 
@@ -274,19 +389,22 @@ def _plain(comparison: Comparison) -> dict[str, Any]:
 
 def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
     written: list[Path] = []
-    tables: Iterable[tuple[str, list[dict[str, Any]]]] = (
-        ("steps.csv", _step_rows(study)),
-        ("recordings.csv", _recording_rows(study)),
-        ("comparison.csv", _effect_rows(study)),
-    )
-    for name, rows in tables:
+    tables = study.tables()
+    for name, rows in tables.items():
         names = _names(rows)
-        written.append(write_text(target / name, csv_text(names, mapping_rows(names, rows))))
+        written.append(write_text(target / f"{name}.csv", csv_text(names, mapping_rows(names, rows))))
+    if study.plan.workbook:
+        sheets = {name: (_names(rows), rows) for name, rows in tables.items()}
+        written.append(write_workbook(target / "study.xlsx", sheets))
     summary = study.summary()
     written.append(write_text(target / "study.json", json.dumps(summary, indent=1, allow_nan=False) + "\n"))
     if figures:
         drawn = write_figures(study_figures(study.comparisons), target)
-        page = study_page(summary, study.results, study.comparisons, drawn, root.resolve().name)
+        page = study_page(summary, study.results, study.comparisons, drawn, root.resolve().name, study.more())
         written += [write_text(target / "study.html", page), *(png for png, _ in drawn)]
         written += [png.with_suffix(".svg") for png, _ in drawn]
+        if study.patient is not None:
+            own = write_figures(patient_figures(study.patient), target)
+            written += [write_text(target / "patient.html", patient_page(study.patient, own, VERSION))]
+            written += [file for png, _ in own for file in (png, png.with_suffix(".svg"))]
     return sorted(map(str, written))

@@ -113,12 +113,14 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
 def adjusted(effect: Effect, difference: float, error: float, freedom: float) -> Effect:
     """Returns effect with an adjusted difference, its standard error and degrees of freedom, as with covariates.
 
-    Hedges' g is that of the adjusted difference over the same standard deviation, its interval shifted with it.
+    Hedges' g is that of the adjusted difference over the same standard deviation, its interval that of `effect_of` with
+    the adjusted error.
     """
     reach = student_quantile(0.5 + 0.5 * _CONFIDENCE, freedom) * error
     scale = effect.effect_size / effect.difference if effect.difference else math.nan
     size = difference * scale
-    half = 0.5 * (effect.effect_high - effect.effect_low)
+    weight = 1.0 / (2.0 * (effect.n_a if effect.paired else effect.n_a + effect.n_b))
+    half = student_quantile(0.5 + 0.5 * _CONFIDENCE, 1e6) * math.sqrt((scale * error) ** 2 + size**2 * weight)
     return replace(
         effect,
         difference=difference,

@@ -3,6 +3,7 @@
 import html
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -24,11 +25,23 @@ from plantar.gait.analysis.measures import full_title, unit_of
 from plantar.gait.analysis.pages.force_figures import STANCE
 from plantar.gait.analysis.steps.steady import FEWEST_STEPS
 from plantar.gait.analysis.study.compare_conditions import Comparison
+from plantar.gait.analysis.study.mixed_models import MixedEffect
 from plantar.gait.analysis.study.one_recording import RecordingResult
+from plantar.gait.analysis.study.reliability import Agreement, Reliability
 from plantar.gait.analysis.study.statistics import Effect, student_quantile
 from plantar.plotting import COLOURS, new_figure
 
 _MOST = 200  # Rows of a table that the page shows; the CSV tables hold all
+
+
+@dataclass(frozen=True)
+class StudyParts:
+    """What a study's page has beside comparisons: changes between factors, reliability, agreement, mixed models."""
+
+    changes: Sequence[Comparison] = ()
+    reliability: Mapping[str, Mapping[str, Reliability]] = field(default_factory=dict)
+    agreement: tuple[tuple[str, str], Mapping[str, Agreement]] = (("", ""), {})
+    mixed: Sequence[MixedEffect] = ()
 
 
 def study_page(
@@ -37,6 +50,7 @@ def study_page(
     comparisons: Sequence[Comparison],
     figures: Sequence[tuple[Path, str]],
     name: str,
+    parts: StudyParts | None = None,
 ) -> str:
     """Returns HTML of a study by name: `Study.summary`, recordings' results, comparisons of every two conditions.
 
@@ -45,8 +59,18 @@ def study_page(
     sections = [Section("summary", "Summary", _summary(summary, comparisons))]
     for i, one in enumerate(comparisons, 1):
         sections.append(Section(f"comparison-{i}", f"{html.escape(one.a)} and {html.escape(one.b)}", _comparison(one)))
+    more = parts or StudyParts()
+    for i, one in enumerate(more.changes, 1):
+        title = f"{html.escape(one.factor)}: {html.escape(one.a)} and {html.escape(one.b)}"
+        sections.append(Section(f"change-{i}", title, _comparison(one)))
     if figures:
         sections.append(figures_of(figures))
+    if more.reliability:
+        sections.append(Section("reliability", "Reliability", _reliability(more.reliability)))
+    if more.agreement[1]:
+        sections.append(Section("agreement", "Agreement of devices", _agreement(*more.agreement)))
+    if more.mixed:
+        sections.append(Section("mixed", "Mixed models", _mixed(more.mixed)))
     recordings = Section("recordings", "Recordings", _recordings(results))
     sections += [Section("look", "To look at", _look(summary)), recordings]
     about = (
@@ -200,6 +224,79 @@ def _clusters(one: Comparison) -> str:
         where = f"in {kept} area{'s' if kept != 1 else ''}, {share:.0f} % of the sole" if kept else "nowhere"
         lines.append(f"The pressure maps differ {where} (largest cluster of {one.map_test.permutations} permutations).")
     return "".join(f"<p>{line}</p>" for line in lines)
+
+
+def _reliability(reliability: Mapping[str, Mapping[str, Reliability]]) -> str:
+    out = ""
+    for condition, measures in reliability.items():
+        rows = []
+        for key, r in measures.items():
+            title, unit, factor = _title(key)
+            icc = (
+                f"{_share(v)} [{_share(a)},\u00a0{_share(b)}]"
+                for v, a, b in ((r.icc_2_1, r.icc_2_1_low, r.icc_2_1_high), (r.icc_2_k, r.icc_2_k_low, r.icc_2_k_high))
+            )
+            cells = [number(r.mean * factor), *icc, number(r.sem * factor), number(r.mdc95 * factor)]
+            rows.append(row(html.escape(titled(title, unit)), cells))
+        first = next(iter(measures.values()), None)
+        if first is None:
+            continue
+        caption = (
+            f"{html.escape(condition)}: {first.k} trials of {first.n} participants. ICC of absolute agreement of one "
+            "trial and of the mean of all, SEM of one trial, and the smallest change between two trials that is beyond "
+            "error in 95 of 100 people (MDC95)."
+        )
+        head = ("Measure", "Mean", "ICC(2,1) [95 % CI]", f"ICC(2,{first.k}) [95 % CI]", "SEM", "MDC95")
+        out += table(f"Reliability, {html.escape(condition)}", caption, head, rows)
+    return out
+
+
+def _share(value: float) -> str:
+    return f"{value:.2f}".replace("-", "−") if math.isfinite(value) else "–"
+
+
+def _agreement(devices: tuple[str, str], agreement: Mapping[str, Agreement]) -> str:
+    rows = []
+    for key, a in agreement.items():
+        title, unit, factor = _title(key)
+        bias, low, high, least, most = (number(v * factor) for v in (a.bias, a.bias_low, a.bias_high, a.low, a.high))
+        cells = [
+            f"{bias} [{low},\u00a0{high}]",
+            least,
+            most,
+            _probability(a.slope_p) if a.slope_p == a.slope_p else "–",
+        ]
+        rows.append(row(html.escape(titled(title, unit)), cells))
+    first = next(iter(agreement.values()))
+    one, other = map(html.escape, devices)
+    caption = (
+        f"{other} less {one}, {first.pairs} pairs of {first.people} participants (Bland &amp; Altman). p of slope: "
+        "whether the difference grows with the size."
+    )
+    head = ("Measure", "Bias [95 % CI]", "Lower limit of agreement", "Upper limit", "p of slope")
+    return table("Agreement of devices", caption, head, rows)
+
+
+def _mixed(mixed: Sequence[MixedEffect]) -> str:
+    rows = []
+    for e in mixed:
+        title, unit, factor = _title(e.measure)
+        difference, low, high = (number(v * factor) for v in (e.difference, e.low, e.high))
+        spreads = [number(v * factor) for v in (e.sd_people, e.sd_levels, e.sd_steps)]
+        cells = [
+            html.escape(f"{e.b} less {e.a}"),
+            f"{difference} [{low},\u00a0{high}]",
+            _probability(e.p),
+            *spreads,
+            html.escape(e.note),
+        ]
+        rows.append(row(html.escape(titled(title, unit)), cells))
+    caption = (
+        f"Linear mixed models of {mixed[0].steps} single steps of {mixed[0].people} people (REML, by statsmodels), "
+        "with a constant for each person and for each person in each level. p is of z and of each measure alone."
+    )
+    head = ("Measure", "Levels", "Difference [95 % CI]", "p", "SD of people", "SD of levels", "SD of steps", "Note")
+    return table("Mixed models", caption, head, rows, words=("Levels", "Note"))
 
 
 def _look(summary: Mapping[str, Any]) -> str:
