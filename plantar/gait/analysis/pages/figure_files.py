@@ -25,7 +25,9 @@ def write_figures(
     for i, (name, figure, caption) in enumerate(figures):
         if figure is not None:
             written.append((save_figure(figure, folder / f"{name}.png"), caption))
-            figure.set_layout_engine("none")  # the axes stay where they are: placing them takes as long as drawing
+            # The axes stay where they are: placing them takes as long as drawing. And with any engine, even "none",
+            # matplotlib draws a figure once more before it saves it.
+            figure.set_layout_engine(None)
             save_figure(figure, folder / f"{name}.svg")
         report((i + 1) / (len(figures) + 2), "drawing")
     return written
