@@ -154,7 +154,7 @@ def test_ground_planes_take_any_array_of_numbers():
     distance = np.full((4, len(SOLE)), 0.03, dtype=np.float32)
     assert batch.ground_planes(SOLE, distance[::2]).height == pytest.approx([0.03, 0.03], rel=1e-6)
     assert batch.ground_planes(SOLE, distance[:0]).inliers.shape == (0, len(SOLE))
-    with pytest.raises(ReadingError, match="distances: shape"):
+    with pytest.raises(ReadingError, match="distances have shape"):
         batch.ground_planes(SOLE, distance[:, 1:])
     with pytest.raises(InputError, match="tolerance of the ground plane"):
         batch.ground_planes(SOLE, distance, tolerance=0.0)

@@ -64,6 +64,7 @@ class Masks:
         return dict(self.names)
 
 
+# What `--masks seven` and `--masks ten` measure.
 SEVEN_MASKS = Masks("seven", SEVEN)
 TEN_MASKS = Masks("ten", TEN)
 
