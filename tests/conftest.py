@@ -22,6 +22,7 @@ import pytest
 from hypothesis import settings
 
 from plantar import hex_layout, kernels
+from plantar.plotting import save_figure
 
 # MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What tests start says so itself.
 if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
@@ -100,8 +101,26 @@ if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_I
 # A slow or busy machine is no failure, and the same examples come each time. To search for new ones:
 # pytest --hypothesis-profile=search
 settings.register_profile("same", deadline=None, max_examples=40, derandomize=True)
+settings.register_profile("short", deadline=None, max_examples=15, derandomize=True)
 settings.register_profile("search", deadline=None, max_examples=2000, print_blob=True)
 settings.load_profile("same")
+
+
+def is_short(config: pytest.Config) -> bool:
+    """Whether the long tests are left out, as by `make test`: then the others draw less, too."""
+    return str(config.option.markexpr) == "not long"
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Draw fewer examples where the long tests are left out, unless a profile is asked for."""
+    if is_short(config) and not config.getoption("--hypothesis-profile"):
+        settings.load_profile("short")
+
+
+@pytest.fixture(scope="session")
+def share(request):
+    """Of what a test draws by itself: a quarter where the long tests are left out, else all."""
+    return 0.25 if is_short(request.config) else 1.0
 
 
 @pytest.fixture
@@ -133,6 +152,26 @@ def within():
         assert held("VmHWM") - before < megabytes
 
     return limit
+
+
+@pytest.fixture
+def quick_figures(request, monkeypatch):
+    """Figures of an analysis are drawn once, without their axes being placed; an SVG is an empty one.
+
+    They take nine tenths of an analysis; that they look right is asked where the mark `drawn` stands.
+    """
+    if request.node.get_closest_marker("drawn"):
+        return
+
+    def save(figure, path):
+        if path.suffix == ".svg":
+            path.write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+        else:
+            figure.set_layout_engine(None)
+            save_figure(figure, path)
+        return path
+
+    monkeypatch.setattr("plantar.gait.analysis.pages.figure_files.save_figure", save)
 
 
 @pytest.fixture(scope="session")

@@ -10,8 +10,15 @@ from xdist.workermanage import WorkerController
 
 __all__ = ["FilesAtOnce"]
 
-TOGETHER = ("tests/shoes/checks/", "tests/shoes/papers/")
-"""Folders whose tests look at one pair of shoes, which takes 20 s of the processor to build and export."""
+TOGETHER = (
+    "tests/shoes/checks/",
+    "tests/shoes/papers/",
+    "tests/shoes/solid/test_kernel.py",
+    "tests/shoes/solid/test_step_model.py",
+    "tests/shoes/test_build.py",
+    "tests/shoes/test_coupon.py",
+)
+"""Folders and files whose tests look at one pair of shoes, which takes 20 s of the processor to build and export."""
 
 
 class FilesAtOnce(LoadFileScheduling):

@@ -137,6 +137,7 @@ def numbers_in(pattern: str, text: str) -> list[float]:
     return [float(number.rstrip(".,")) for number in found.groups()]
 
 
+@pytest.mark.sample(12)
 @pytest.mark.parametrize("name", QUICK)
 def test_an_example_finds_what_it_says(name, monkeypatch, capsys):
     example = QUICK[name]

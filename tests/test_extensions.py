@@ -152,6 +152,7 @@ def test_a_live_source_of_a_users_package(plugin):
     assert (refused.returncode, "allowed: packets:PORT" in refused.stderr) == (2, True)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("group", "name", "value", "words"),
     [

@@ -4,9 +4,12 @@ import re
 import subprocess
 import sys
 
+import pytest
+
 from plantar import FeetPercept, Percept
 
 
+@pytest.mark.long
 def test_the_gallery_draws_what_the_page_shows(repository, tmp_path):
     subprocess.run([sys.executable, "examples/gallery.py", str(tmp_path)], cwd=repository, check=True, timeout=600)
     drawn = {p.name: p.stat().st_size for p in tmp_path.iterdir()}

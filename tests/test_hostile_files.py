@@ -104,21 +104,16 @@ def refused(forks: Any, folder: Path, kind: str, content: Content) -> None:
     assert left == {"logs"}
 
 
-def _quick_or_long(names: list[str], quick: set[str]) -> list[Any]:
-    """Parameters of a test, most of which run only where there is time."""
-    return [pytest.param(name, marks=() if name in quick else pytest.mark.long) for name in names]
-
-
-FIRST_OF_KIND = set({kind: name for name, (kind, _) in reversed(FAMILIES.items())}.values())
 ANY = {f"{kind}: {defect}": (kind, content) for kind in COMMANDS for defect, content in DEFECTS_OF_ANY.items()}
-EACH_DEFECT = {f"{kind}: {defect}" for kind, defect in zip(list(COMMANDS)[::3], DEFECTS_OF_ANY, strict=False)}
 
 
-@pytest.mark.parametrize("name", _quick_or_long(list(FAMILIES), FIRST_OF_KIND))
+@pytest.mark.sample(12)
+@pytest.mark.parametrize("name", FAMILIES)
 def test_a_hostile_file_is_refused_in_one_line_at_once(name, forks, tmp_path):
     refused(forks, tmp_path, *FAMILIES[name])
 
 
-@pytest.mark.parametrize("name", _quick_or_long(list(ANY), EACH_DEFECT))
+@pytest.mark.sample(4)
+@pytest.mark.parametrize("name", ANY)
 def test_what_may_stand_behind_any_name_is_refused(name, forks, tmp_path):
     refused(forks, tmp_path, *ANY[name])

@@ -64,28 +64,22 @@ def run(environment: dict[str, str], cwd: Path, *words: str | Path) -> str:
     return done.stdout
 
 
-def test_recordings_are_analysed_compared_and_studied(environment, tmp_path):
+ANALYSES = {
+    "report.html": ["study/a.asc", "--export", "npz", "--export", "csv"],
+    "compared/report.html": ["--compare", "study/a.asc", "study/b.asc", "-o", "out/compared"],
+    "study.html": ["study"],
+}
+"""Pages, and what makes them of two recordings."""
+
+
+@pytest.mark.sample(1)
+@pytest.mark.parametrize("page", ANALYSES)
+def test_recordings_are_analysed_compared_and_studied(page, environment, tmp_path):
     (tmp_path / "study").mkdir()
     for name in ("a.asc", "b.asc"):
         run(environment, tmp_path, ROOT / "examples" / "insole_walk.py", f"study/{name}")
-    run(
-        environment,
-        tmp_path,
-        "-m",
-        "plantar",
-        "analyze",
-        "study/a.asc",
-        "--export",
-        "npz",
-        "--export",
-        "csv",
-        "-o",
-        "one",
-    )
-    run(environment, tmp_path, "-m", "plantar", "analyze", "--compare", "study/a.asc", "study/b.asc", "-o", "both")
-    run(environment, tmp_path, "-m", "plantar", "analyze", "study", "-o", "all")
-    made = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*.html")}
-    assert {"one/report.html", "both/report.html", "all/study.html"} <= made
+    run(environment, tmp_path, "-m", "plantar", "analyze", "-o", "out", *ANALYSES[page])
+    assert (tmp_path / "out" / page).is_file()
 
 
 def test_a_sensor_is_recorded_and_viewed(environment, tmp_path):

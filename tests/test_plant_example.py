@@ -4,7 +4,10 @@ import re
 import subprocess
 import sys
 
+import pytest
 
+
+@pytest.mark.long
 def test_levels_grow_and_the_controller_keeps_its_own_mass(repository):
     done = subprocess.run(
         [sys.executable, "examples/other_plant.py"], cwd=repository, capture_output=True, text=True, timeout=600

@@ -12,8 +12,8 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
-LONG = ("plantar demo", "plantar sweep", "plantar bench", "plantar sim lean", "plantar sim beam")
-"""Commands that only `make test-all` runs; other tests walk a shorter beam, lean, sweep and measure."""
+LONG = tuple(f"plantar {c}" for c in ("demo", "sweep", "bench", "sim", "shoe", "analyze out/flat.mcap"))
+"""Commands that only `make test-all` runs; other tests walk less far, build a smaller shoe, sweep and measure."""
 
 
 def blocks(text: str, language: str) -> list[str]:

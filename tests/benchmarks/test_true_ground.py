@@ -36,6 +36,7 @@ def test_a_hull_is_distinguished_from_other_rings():
     assert is_hull([(0.0, 0.0), (1.0, 0.0)], [(0.5, 0.0), (0.0, 0.0), (1.0, 0.0)])
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize(("scene", "robot"), [("uneven", "h1"), ("flat", "hrp2kai")])
 def test_a_short_walk(scene, robot):
     run = Watched(load_scene(scene, ["steps=4"], robot), 0)

@@ -42,6 +42,7 @@ def _check_places(walk: Analysis, lab: Laboratory) -> None:
         assert float(np.nanmedian(np.abs(free - contact.free[own]))) < 2.0
 
 
+@pytest.mark.sample(8)
 @pytest.mark.parametrize("seed", [*range(12), *LONG])
 @pytest.mark.parametrize("hard", [False, True])
 def test_made_plates_are_right_refused_or_warned_of(tmp_path, seed, hard):

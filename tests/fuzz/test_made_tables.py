@@ -14,6 +14,7 @@ from .made_tables import Table, made_table
 LONG = [pytest.param(seed, marks=pytest.mark.long) for seed in range(24, 324)]
 
 
+@pytest.mark.sample(16)
 @pytest.mark.parametrize("seed", [*range(24), *LONG])
 @pytest.mark.parametrize("hard", [False, True])
 def test_made_tables_are_right(tmp_path, seed, hard):

@@ -18,6 +18,7 @@ def _fuzz(name: str, seconds: float, most: int, folder: Path) -> int:
     return int(count)
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("name", TARGETS)
 def test_some_mutants_are_read_or_refused(name, tmp_path):
     count = _fuzz(name, seconds=2.0, most=60, folder=tmp_path)

@@ -119,6 +119,7 @@ def test_a_layout_needs_no_cad_kernel():
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("name", NAMES)
 def test_no_random_lattice_has_more_cells_on_feet_of_every_shape(generated_feet, name):
     foot = foot_from_triangles(name, generated_feet[name], where=name)

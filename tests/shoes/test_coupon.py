@@ -45,6 +45,7 @@ def test_a_coupon_is_of_the_left_shoe(small_foot):
         build_coupons(build_shoe(small_foot, side="right", layout_only=True))
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("cell", ["fsr_402", "square", "sheet"])
 def test_a_coupon_of_other_cells_has_their_pocket_and_walls_around_it(cell):
     foot = foot_from_dimensions("foot", length=0.2, width=0.09, corner_radius=0.01)

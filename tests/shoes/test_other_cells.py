@@ -24,9 +24,8 @@ thickness = 0.8
 """
 
 
-@pytest.mark.parametrize(
-    "name", ["own", *(pytest.param(n, marks=pytest.mark.long) for n in ("square", "fsr_402", "sheet"))]
-)
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["own", "square", "fsr_402", "sheet"])
 def test_the_witness_finds_nothing_wrong(name, small_foot, tmp_path):
     (tmp_path / "own.toml").write_text(OWN)
     cell = read_cell(str(tmp_path / "own.toml") if name == "own" else name)

@@ -54,6 +54,7 @@ def in_world(model: Any, data: Any, body: str, pose: Any, points: NDArray[np.flo
     return np.asarray(data.xpos[at] + pose.placed(points) @ data.xmat[at].reshape(3, 3).T)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("file", "left", "right"), ROBOTS)
 def test_a_sole_is_below_its_ankle_where_mujoco_has_it(real_data, file, left, right):
     path = real_data / "robots" / file
@@ -75,6 +76,7 @@ def test_a_sole_is_below_its_ankle_where_mujoco_has_it(real_data, file, left, ri
     assert heights[0] == pytest.approx(heights[1], abs=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("file", "left", "right"), ROBOTS)
 def test_a_foots_corners_are_where_mujoco_moves_them(real_data, file, left, right):
     from scipy.spatial import cKDTree

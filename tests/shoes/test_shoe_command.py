@@ -70,6 +70,7 @@ def test_a_robot_gives_its_layouts(run, tmp_path, repository):
         assert 0.0 < layout["shoe"]["overhang"] <= 0.010
 
 
+@pytest.mark.long
 def test_a_check_that_does_not_hold_is_exit_1(run, stl, box, tmp_path):
     (tmp_path / "wide.toml").write_text("clearance = 5.0\nrim_thickness = 8.0\nboard_length = 0\n")
     code, out, err = run(

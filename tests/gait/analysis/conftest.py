@@ -64,3 +64,8 @@ def make_walk(*, steps=10, rate=250.0, noise=0.0, clip=False, rise=0.012, weight
 def walk():
     """Maker of synthetic walks."""
     return make_walk
+
+
+@pytest.fixture(autouse=True)
+def _quick_figures(quick_figures):
+    """Of all analyses here."""

@@ -45,6 +45,7 @@ def run(tmp_path, walk):
     return path, made
 
 
+@pytest.mark.drawn
 def test_all_outputs_of_a_robot_recording(tmp_path, run):
     path, made = run
     calls: list[float] = []
@@ -157,6 +158,7 @@ def test_list_names_what_there_is():
         assert name in [entry["name"] for entry in json.loads(done.stdout)[what]]
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("arguments", [["analyze", "--help"], ["list", "robots"], ["analyze", "RUN", "-o", "OUT"]])
 def test_analysis_loads_neither_mujoco_nor_cadquery(tmp_path, run, arguments):
     words = {"RUN": str(run[0]), "OUT": str(tmp_path / "out")}
@@ -192,6 +194,7 @@ def test_real_pedar_walk_has_9_and_8_complete_steps(tmp_path, real_data):
     assert 85.0 < result["gait"]["cadence_steps_per_min"] < 100.0
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("gain", "lost"), [(1e-9, None), (1e9, None), (1e-9, "cells"), (1.0, "cells"), (1.0, "all"), (1e9, "all")]
 )

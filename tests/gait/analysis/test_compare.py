@@ -33,6 +33,7 @@ def layout(tmp_path):
     return write_layout(nominal_insole("y", "left"), tmp_path / "layout.json")
 
 
+@pytest.mark.drawn
 def test_before_and_after(tmp_path, layout):
     a = write_walk(tmp_path / "before.npz", ("left", "right"))
     b = write_walk(tmp_path / "after.npz", ("left", "right"), 1.25)
@@ -85,9 +86,11 @@ def test_other_sensors_are_told(tmp_path, layout):
     result = compare_recordings(a, plates, tmp_path / "out")
     assert result["warnings"][0].startswith("A is of insoles (no cells), B of force plates (no cells): differences may")
     assert "A is of insoles" in (tmp_path / "out" / "report.html").read_text()
-    done = CliRunner().invoke(cli.app, ["analyze", "--compare", str(a), str(plates), "-o", str(tmp_path / "out")])
+    done = CliRunner().invoke(
+        cli.app, ["analyze", "--compare", str(a), str(plates), "--no-figures", "-o", str(tmp_path / "no")]
+    )
     assert "note: A is of insoles (no cells), B of force plates" in done.stderr
-    assert compare_recordings(a, a, tmp_path / "same", layout=layout)["warnings"] == []
+    assert compare_recordings(a, a, tmp_path / "same", layout=layout, figures=False)["warnings"] == []
 
 
 def test_what_cannot_be_compared(tmp_path, layout):

@@ -54,6 +54,7 @@ def test_a_name_of_a_file_may_be_of_any_bytes(tmp_path):
     assert (tmp_path / "all" / "study.html").is_file()
 
 
+@pytest.mark.sample(8)
 @pytest.mark.parametrize("value", [np.inf, -np.inf, 1e308, -1e308, 1e155, 5e-324, -0.0])
 @pytest.mark.parametrize("names", NAMES)
 def test_values_that_no_sensor_gives_were_not_measured(tmp_path, value, names):

@@ -16,6 +16,8 @@ from .browser import AXE, axe_script, visit
 from .printing import PrintedImage, printed, printed_images
 from .walks import made_walk
 
+pytestmark = pytest.mark.drawn
+
 WAIT = """
 const player = document.getElementById('player');
 for (let i = 0; i < 200 && player && player.dataset.ready !== 'true'; i++) await new Promise(r => setTimeout(r, 20));

@@ -47,6 +47,7 @@ def check_with_stance(found: Analysis, walk: MadeWalk, sides: tuple = SIDES) -> 
         assert abs(stance[0] - stance[1]) < 0.01
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "changes",
     [
@@ -100,6 +101,7 @@ def test_a_clock_of_hundredths(tmp_path, rate):
     check(analysed(tmp_path / "walk.asc", pedar(walk, replace(PLAIN, decimals=2, short=True))), walk)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("short", [False, True])
 @pytest.mark.parametrize("every", [3, 10, 150, 0])
 def test_a_clock_that_stands_still_now_and_then(tmp_path, every, short):

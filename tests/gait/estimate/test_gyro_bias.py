@@ -56,6 +56,7 @@ def found(bias, duration=3.0, seed=0, weights=BOTH, turning=None):
     return identified.value
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", range(10))
 def test_recovers_a_bias_while_the_body_sways(seed):
     bias = np.random.default_rng([seed, 1]).uniform(-0.01, 0.01, 3)
@@ -63,6 +64,7 @@ def test_recovers_a_bias_while_the_body_sways(seed):
     np.testing.assert_allclose(found(bias, seed=seed), bias, atol=4e-4)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(5))
 def test_is_none_without_a_bias(seed):
     assert np.abs(found(np.zeros(3), seed=seed)).max() < 4e-4

@@ -34,6 +34,7 @@ def walk(path, prefixes, speed, strides=2, pushes=True, order=(0, 1)):
     return begins
 
 
+@pytest.mark.sample(10)
 @pytest.mark.parametrize("prefixes", PREFIXES)
 @pytest.mark.parametrize(("speed", "pushes"), [(0.5, True), (1.2, True), (1.2, False), (1.8, False)])
 @pytest.mark.parametrize("strides", [1, 3])

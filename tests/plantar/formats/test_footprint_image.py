@@ -21,6 +21,11 @@ cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install 'p
 MM = 0.5
 
 
+@pytest.fixture(autouse=True)
+def _quick_figures(quick_figures):
+    """Of all footprints here; the tests of their pages draw them whole."""
+
+
 def canvas(feet: int = 1, background: int = 255) -> np.ndarray:
     return np.full((640, 320 * feet, 3), background, dtype=np.uint8)
 
@@ -60,6 +65,7 @@ def test_a_foot_without_a_midfoot_is_one_foot(tmp_path, side):
     assert result["feet"][name]["footprint"]["arch_index"] < 0.1  # the ball alone reaches into the middle third
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("gap", [0.97, 1.0, 1.04])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_the_shape_does_not_depend_on_the_scale(tmp_path, side, gap):
@@ -80,6 +86,7 @@ def test_the_shape_does_not_depend_on_the_scale(tmp_path, side, gap):
     assert found[1][2] == pytest.approx(193.0 / (222.0 * gap + 18.0), abs=0.01)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("suffix", "side"), [("png", "left"), ("jpg", "right"), ("tif", "left"), ("bmp", "right")])
 def test_a_drawn_foot(tmp_path, suffix, side):
     image = canvas()

@@ -36,6 +36,7 @@ def test_a_pipe_does_not_hang_whatever_it_is_taken_for(tmp_path, name):
         read_mcap(tmp_path / "pipe")
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("name", formats())
 def test_any_bytes_are_one_line_for_every_reader(tmp_path, name):
     path = tmp_path / "zwei\nzeilen"

@@ -97,6 +97,7 @@ HOSTILE: dict[str, tuple[str, Callable[[], Iterable[str]], str]] = {
 }
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("name", HOSTILE)
 def test_what_would_make_much_of_little_is_refused(tmp_path, within, name):
     kind, pieces, words = HOSTILE[name]
@@ -176,6 +177,7 @@ LONG = {
 }
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("kind", LONG)
 def test_a_long_recording_is_in_memory_once(tmp_path, within, kind):
     """The array that comes out is 13 to 49 MB large; a second one of it would not find room."""

@@ -73,6 +73,7 @@ def test_headings_of_two_feet(tmp_path, names):
     check(analyse(path))
 
 
+@pytest.mark.sample(16)
 @pytest.mark.parametrize("above", ["Rate,100", "Sampling frequency (Hz),100,,", "Name,Max,,|rate,100,Hz,", "Name,Max"])
 @pytest.mark.parametrize(
     "names", ["left,right", "L_Fz,R_Fz", "Fz Left,Fz Right", "left_force,right_force", "L1,L2,R1,R2", "L1 [N],R1 [N]"]

@@ -32,7 +32,7 @@ blocks = st.builds(
 
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__.strip("_"))
 @given(block=blocks)
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=5, deadline=None)
 def test_odd_readings(check, block):
     check(block)
 

@@ -34,25 +34,31 @@ from ..fuzz.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanis
 from ..sample_soles import sole_of
 
 COUNT = 600
+"""Rings, of which the short tests take a quarter."""
+
+
+@pytest.fixture(autouse=True)
+def _fewer(share, monkeypatch):
+    monkeypatch.setitem(globals(), "COUNT", round(share * 600))
 
 
 @cache
-def rings():
+def rings(count):
     """Each ring with its exact one, what its errors may be, and numbers to draw from."""
     found = []
-    for seed in range(2 * COUNT):
+    for seed in range(2 * count):
         ring = dirty_ring(np.random.default_rng(seed))
         one = ExactRing.of(ring)
-        if len(one.polygon) > 2 and len(found) < COUNT:
+        if len(one.polygon) > 2 and len(found) < count:
             found.append((ring, one, 1e-9 + 40.0 * one.step, np.random.default_rng(seed)))
-    assert len(found) == COUNT
+    assert len(found) == count
     return found
 
 
 def assert_none_is_wrong(error):
     """Assert that the error of no ring, in units of its size, is more than it may be."""
     wrong = {}
-    for i, (ring, one, allowed, rng) in enumerate(rings()):
+    for i, (ring, one, allowed, rng) in enumerate(rings(COUNT)):
         off = error(ring, one, rng)
         if not off <= allowed:
             wrong[i] = off, allowed
@@ -65,7 +71,7 @@ def size(corners):
 
 
 def test_clean_rings_stay_as_they_are():
-    for _, one, _, _ in rings():
+    for _, one, _, _ in rings(COUNT):
         for ring in (one.polygon, one.polygon[::-1]):
             assert turning(ring, 0.0, 0.0, 0.0) in (0, 1 if ring is one.polygon else -1)
             assert inner_offset(ring, 0.0) is not ring
@@ -243,9 +249,9 @@ def offset_where_an_edge_vanishes(ring, rng):
     return smaller, depth, middle + rng.uniform(0.0, 0.99) * (smaller[rng.integers(len(smaller))] - middle)
 
 
-def test_margins_of_the_library_s_own_inner_offsets():
+def test_margins_of_the_library_s_own_inner_offsets(share):
     wrong = []
-    for seed in range(2000):
+    for seed in range(round(2000 * share)):
         rng = np.random.default_rng(seed)
         ring = convex_hull(chamfered_rectangle(rng))
         smaller, depth, point = offset_where_an_edge_vanishes(ring, rng)
@@ -256,10 +262,10 @@ def test_margins_of_the_library_s_own_inner_offsets():
     assert wrong == []
 
 
-def test_a_tick_leaves_an_aim_inside_where_it_is():
+def test_a_tick_leaves_an_aim_inside_where_it_is(share):
     layout = sole_of(51)
     wrong, count = [], 0
-    for seed in range(5000):
+    for seed in range(round(5000 * share)):
         rng = np.random.default_rng(seed)
         force = np.where(rng.random(len(layout)) < rng.choice([0.05, 0.1, 0.2, 0.5]), 20.0, 0.0)
         hull, *_ = layout.kernel.hull(force > 0.0)
@@ -276,7 +282,7 @@ def test_a_tick_leaves_an_aim_inside_where_it_is():
             if foot.clamped.tolist() != aim.tolist() or abs(signed_margin(smaller, aim) - inside_by) > 1e-9:
                 wrong.append(seed)
     assert wrong == []
-    assert count > 3000
+    assert count > 3000 * share
 
 
 def test_what_ground_edges_leave_is_clean():

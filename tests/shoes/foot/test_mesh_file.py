@@ -105,6 +105,7 @@ def test_a_bad_3mf_gives_one_line(tmp_path, model):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.5, 0.99])
 @pytest.mark.parametrize("kind", ["stl", "stl_ascii", "ply", "3mf"])
 def test_a_truncated_file_gives_one_line(tmp_path, box, kind, share):
@@ -181,6 +182,7 @@ def test_a_step_file_gives_the_triangles_that_cadquery_finds(tmp_path):
     assert mesh.volume == pytest.approx(solid.val().Volume(), rel=2e-3)  # and so turned outwards
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", ["foot.stl", "text.stl", "foot.obj", "foot.ply", "foot.off", "foot.3mf"])
 def test_a_mesh_of_too_many_triangles_is_refused(tmp_path, monkeypatch, box, name):
     mesh, path = _mesh(box).subdivide(), tmp_path / name

@@ -57,6 +57,7 @@ def test_stiff_springs_touch_where_a_plate_rests_on_three():
     assert set(touching) == set(np.flatnonzero(u @ plane - heights[0] < 1e-7))
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("process", sorted(PROCESSES))
 @pytest.mark.parametrize("mass", [4.0, 60.0])
 def test_the_pad_is_soft_enough_for_every_process(process, mass):
@@ -84,6 +85,7 @@ def test_taxels_in_a_line_see_nothing_across_it():
     assert not seen.holds
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("length", [0.065, 0.08, 0.12, 0.24])
 def test_cells_are_made_smaller_until_both_directions_are_seen(length):
     foot = foot_from_dimensions("a", length=length, width=0.5 * length, corner_radius=0.005)

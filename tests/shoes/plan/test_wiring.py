@@ -14,6 +14,7 @@ from plantar.shoes.plan.wiring import pocket_outlines
 from ..foot_family import FAMILY, small_turns, turned
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("cell", ["fsr_402", "square"])
 @pytest.mark.parametrize(("length", "width"), [(0.215, 0.0756), (0.205, 0.0756), (0.235, 0.1), (0.25, 0.08)])
 def test_outlines_have_no_edge_of_some_thousandths(length, width, cell):

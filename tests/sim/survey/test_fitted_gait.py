@@ -47,6 +47,7 @@ def speed(fitted: FittedGait) -> float:
     return STEP_SHARE * fitted.body.leg / (robot.single_support + robot.double_support)
 
 
+@pytest.mark.long
 def test_weak_motors_make_a_walk_slower():
     h1 = load_robot("h1")
     strong = fit_gait(replace(h1, effort_limits=(1000.0,) * 6))
@@ -67,6 +68,7 @@ def test_slow_joints_make_a_walk_slower():
     assert float(slow.reach.speed.max()) < 0.95 * limit
 
 
+@pytest.mark.sample(1, each="kept")
 @pytest.mark.parametrize(("own", "kept"), [((8e3, 150.0), True), ((1e6, 1e3), False), ((8e3, 0.0), False)])
 def test_servos_that_chatter_or_ring_are_replaced(own, kept):
     found = fit_gait(load_robot("h1"), [own] * 6)

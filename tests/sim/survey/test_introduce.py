@@ -61,6 +61,7 @@ def test_the_robot_file_is_read_and_its_copy_stands_by_itself(made):
     assert found.fitted.reach.knee > np.radians(19.0)
     assert float(np.degrees(found.survey.soles["left"].turn)) > 5.0
     assert "robot.png" in found.files
+    assert found.walks
     text = (folder / "robot.toml").read_text()
     assert text.count("#") > 20
     assert "against the sole" in text
@@ -295,30 +296,27 @@ def test_the_command_chooses_opengl_without_a_display(monkeypatch, tmp_path):
 
 
 def test_the_walk_decides_and_the_file_is_written_all_the_same(tmp_path, monkeypatch):
-    """The check, which expects trouble here, refuses nothing; a trial walk that is not completed gives exit code 1."""
-    truth = random_biped(SEED, tmp_path)
-    (tmp_path / "out").mkdir()
-    doubts = SimpleNamespace(failures=["torque: too weak"])
-    monkeypatch.setattr("plantar.sim.survey.introduce.check_robot", lambda *_: doubts)
-    monkeypatch.setattr("plantar.sim.survey.introduce.trial_walk", lambda _: (0.0, ["its first steps missed fall"]))
-    found = introduce(truth.file, tmp_path / "out", shoe_for_surface)
-    assert not found.walks
-    assert found.as_dict(tmp_path)["walks"] is False
-    assert list(found.walked) == ["the check expects trouble: torque: too weak", "its first steps missed fall"]
-    load_robot(tmp_path / "out" / "robot.toml")
+    """The check, which expects trouble here, refuses nothing; a trial walk that is not completed gives exit code 1.
 
+    Nor does a picture that cannot be drawn refuse anything.
+    """
 
-def test_without_a_picture_the_robot_is_kept(tmp_path, monkeypatch):
     def no_opengl(*_):
         raise RuntimeError("no OpenGL platform")
 
     truth = random_biped(SEED, tmp_path)
     (tmp_path / "out").mkdir()
+    doubts = SimpleNamespace(failures=["torque: too weak"])
     monkeypatch.setattr("plantar.sim.survey.introduce.draw_robot", no_opengl)
-    monkeypatch.setattr("plantar.sim.survey.introduce.trial_walk", lambda _: (0.0, []))
+    monkeypatch.setattr("plantar.sim.survey.introduce.check_robot", lambda *_: doubts)
+    monkeypatch.setattr("plantar.sim.survey.introduce.trial_walk", lambda _: (0.0, ["its first steps missed fall"]))
     found = introduce(truth.file, tmp_path / "out", shoe_for_surface)
-    assert found.walks
-    assert "robot.png is not drawn: no OpenGL platform" in found.walked[-1]
+    assert not found.walks
+    assert found.as_dict(tmp_path)["walks"] is False
+    *told, drawn = found.walked
+    assert told == ["the check expects trouble: torque: too weak", "its first steps missed fall"]
+    assert "robot.png is not drawn: no OpenGL platform" in drawn
+    load_robot(tmp_path / "out" / "robot.toml")
 
 
 def test_a_model_called_mjcf_is_read_as_one_called_xml(tmp_path):

@@ -22,6 +22,7 @@ THINGS = """
 """
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_what_else_is_in_a_scene_is_no_part_of_the_robot(seed, tmp_path):
     truth = random_biped(seed, tmp_path)
@@ -102,6 +103,7 @@ def test_swapped_limits_which_mujoco_ignores_are_refused(tmp_path, joint, motor,
         read_stated_model(file, tmp_path)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("name", "imu"),
     [
@@ -247,6 +249,7 @@ def test_torque_limits_are_those_of_joint_and_motor(tmp_path, motor, effort):
     assert read_stated_model(file, tmp_path).efforts == {"a": min(effort, 90.0)}
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("seed", range(12))
 def test_torque_limits_of_several_motors_are_what_mujoco_lets_them_reach(tmp_path, seed):
     """Motors at a joint at rest in every corner of their controls; gears and coefficients of either sign."""

@@ -53,6 +53,7 @@ def test_a_binary_file_is_taken_as_it_is_up_to_the_faces_that_mujoco_reads(tmp_p
     assert mesh_for_mujoco(path, folder) == folder / mesh_for_mujoco(path, folder).name
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize(
     "data", [b"", b"solid x", b"<COLLADA/>", b'<!DOCTYPE a [<!ENTITY b "c">]><COLLADA/>', bytes(99)]
 )

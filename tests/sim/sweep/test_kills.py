@@ -176,11 +176,12 @@ def test_a_killed_worker_costs_its_run_and_a_killed_sweep_takes_its_workers_alon
     sweep.kill()
     finish(sweep)
     assert_all_gone([second])
-    code, errors = finish(start(*SWEEP, "--workers=2", "-o", tmp_path))
+    code, errors = finish(start(*SWEEP, "--workers=1", "-o", tmp_path))
     assert (code, errors) == (0, "")
     content(tmp_path)
 
 
+@pytest.mark.long
 def test_a_second_sweep_on_a_folder_is_refused_while_the_first_goes_on(tmp_path):
     many = 100 * SEEDS  # more than are done until the second has started, on any machine
     first = start(*SCENE, f"--seeds={many}", "--workers=1", "-o", tmp_path)
@@ -193,6 +194,7 @@ def test_a_second_sweep_on_a_folder_is_refused_while_the_first_goes_on(tmp_path)
     assert_stopped(*finish(first), signal.SIGTERM, tmp_path, many)
 
 
+@pytest.mark.long
 def test_a_scheduler_that_dies_is_one_line_and_its_rows_go_on_elsewhere(tmp_path):
     folder = tmp_path / "rows"
     with cluster(tmp_path) as (address, scheduler, _):
@@ -205,7 +207,7 @@ def test_a_scheduler_that_dies_is_one_line_and_its_rows_go_on_elsewhere(tmp_path
             f"kept {len(rows(folder))} of {TOTAL} rows in {folder / 'results.csv'}; the same command goes on from there"
         )
         assert errors == f"plantar: the Dask scheduler at {address} went away: {kept}\n"
-    code, errors = finish(start(*SWEEP, "--workers=2", "-o", folder))
+    code, errors = finish(start(*SWEEP, "--workers=1", "-o", folder))
     assert (code, errors) == (0, "")
     content(folder)
 

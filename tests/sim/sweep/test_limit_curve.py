@@ -71,6 +71,7 @@ def test_intervals_of_95_percent_hold_the_limit_that_often(width, lapse):
     assert held >= 25
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("width", "lapse", "limits", "least"),
     [

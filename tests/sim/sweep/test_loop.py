@@ -91,6 +91,7 @@ def interruptible():
         signal.signal(number, handler)
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_a_sweep_after_a_whole_row(number, tmp_path):
     def stop(fraction: float, text: str) -> None:

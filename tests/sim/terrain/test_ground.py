@@ -129,6 +129,7 @@ LARGEST_SHARE = {"box": 0.01, "cylinder": 0.06}
 """Of pairs of poses a micrometre apart, how many may jump; MuJoCo finds its own contacts, and not always all four."""
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", SOLIDS)
 def test_force_and_center_of_pressure_are_continuous(name):
     broken, tried = breaks(name, 400, 0)

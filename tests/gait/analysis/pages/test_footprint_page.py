@@ -11,6 +11,8 @@ from ..test_report_in_browser import READABLE, whole
 
 cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install 'plantar[formats]'")
 
+pytestmark = pytest.mark.drawn
+
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):

@@ -70,8 +70,8 @@ def walkway(steps=6, first="left", reverse=False, across=False, cut=False, headi
     "options",
     [
         {"steps": 4},
-        {"steps": 3, "reverse": True},
         {"steps": 2, "heading": 20.0},
+        pytest.param({"steps": 3, "reverse": True}, marks=pytest.mark.long),
         pytest.param({"steps": 2}, marks=pytest.mark.long),
         pytest.param({"first": "right"}, marks=pytest.mark.long),
         pytest.param({"reverse": True}, marks=pytest.mark.long),
@@ -199,6 +199,7 @@ def trimmed(recording, begin, end):
     return replace(recording, feet={"left": FootRecording("left", foot.force[:, keep].copy(), layout)})
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize(("begin", "end", "steps"), [(0.12, 9.0, 3), (0.0, 0.05 + 3 * STEP + 0.16, 3)])
 def test_a_footprint_cut_off_by_the_edge_gives_no_length(begin, end, steps):
     told, prints = separated_feet(trimmed(walkway(4)[0], begin, end))

@@ -48,6 +48,7 @@ def check(walk: MadeWalk, recording: PressureRecording, strike: float = 0.020, l
         assert peaks == pytest.approx([walk.recording.feet[side].vertical_force.max()] * len(peaks), rel=0.04)
 
 
+@pytest.mark.sample(12)
 @pytest.mark.parametrize("force", [80.0, 300.0, -150.0])
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("name", ["walk", "run"])

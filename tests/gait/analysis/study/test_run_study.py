@@ -270,6 +270,7 @@ def page_with_figures(study: tuple[Path, Path, Study], folder: Path) -> Path:
     return page
 
 
+@pytest.mark.drawn
 def test_the_page_opens_on_a_telephone(study, tmp_path):
     """At 390 px: no error, nothing to be pulled aside, every text is legible, figures are there."""
     page = page_with_figures(study, tmp_path)
@@ -281,6 +282,7 @@ def test_the_page_opens_on_a_telephone(study, tmp_path):
     assert page.read_text().count("<figure") == 3
 
 
+@pytest.mark.drawn
 @pytest.mark.long
 def test_no_figure_of_the_page_is_cut_in_print(study, tmp_path):
     """Each figure lies whole on one sheet."""

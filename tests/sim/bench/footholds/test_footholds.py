@@ -207,6 +207,7 @@ def test_a_policy_that_cheats_is_refused_with_the_reason(cheat, reason):
     assert reason in found.failed
 
 
+@pytest.mark.long
 def test_places_that_a_policy_names_without_a_reason_of_the_ground_are_none_of_its_steps():
     """It walks shorter steps than asked for, and reports each as moved."""
 
