@@ -17,7 +17,7 @@ PURPOSES = {
     "shoes": "plantar shoe: printable shoes",
     "sim": "plantar sim, sweep, robot, demo: walking in MuJoCo",
     "formats": "ROS bags, C3D files and images of footprints",
-    "study": "mixed models, workbooks and Parquet tables of a study",
+    "study": "mixed models and workbooks of a study",
     "warp": "skin in many worlds of MuJoCo Warp at once",
     "gym": "environments for learning, PlantarWalk-v0",
     "cluster": "plantar sweep --scheduler: workers on other machines",

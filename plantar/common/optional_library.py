@@ -37,7 +37,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
         "trimesh": "trimesh",
     },
     "formats": {"rosbags": "rosbags", "ezc3d": "ezc3d", "opencv-contrib-python-headless": "cv2"},
-    "study": {"statsmodels": "statsmodels", "XlsxWriter": "xlsxwriter", "pyarrow": "pyarrow"},
+    "study": {"statsmodels": "statsmodels", "XlsxWriter": "xlsxwriter"},
     "cluster": {"distributed": "distributed"},
     "gym": {"gymnasium": "gymnasium"},
     "warp": {"mujoco-warp": "mujoco_warp", "warp-lang": "warp"},

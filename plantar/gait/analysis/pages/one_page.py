@@ -1,4 +1,4 @@
-"""One-page summary: main measures, norms, loads and trends."""
+"""One-page summary: main measures, loads and trends."""
 
 import html
 from collections.abc import Mapping, Sequence
@@ -18,14 +18,6 @@ from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
 
-# 95 % ranges of women and men of 18 to 49 years who walk freely, after Whittle 2007, Gait Analysis, 4th ed.; not yet
-# compared with the printed table.
-NORMS: Mapping[str, tuple[float, float]] = {
-    "stride_time_s": (0.87, 1.32),
-    "cadence_steps_per_min": (91.0, 138.0),
-    "stride_length_m": (1.06, 1.85),
-    "stride_velocity_m_s": (0.94, 1.82),
-}
 _ROWS = (
     *("contact_time_s", "stride_time_s", "stance_percent", "double_support_percent", "stride_length_m"),
     *("stride_velocity_m_s", "peak_force_N", "first_peak_N", "second_peak_N", "impulse_Ns", "peak_pressure_Pa"),
@@ -53,53 +45,22 @@ def _table(metrics: Mapping[str, Any]) -> str:
     feet = metrics["feet"]
     gait = metrics["gait"]
     raw = bool(metrics.get("raw"))
-    norms = metrics["kind"] != "robot"
     rows = []
     cadence = gait.get("steady_cadence_steps_per_min")
     if cadence is not None:
         both = [f"{number(cadence)} (both feet)", *[""] * (len(feet) - 1)]
-        band = [_band("cadence_steps_per_min", {"both": cadence}, 1.0)] if norms else []
-        rows.append(row("Cadence (steps/min)", [*both, "", *band]))
+        rows.append(row("Cadence (steps/min)", [*both, ""]))
     for plain in _ROWS:
         key, title, factor = shown_as(plain, replace(MEASURES[plain], title=full_title(plain)), raw)
         spreads = {side: foot["measures"].get(key) for side, foot in feet.items()}
-        means = {side: s["mean"] for side, s in spreads.items() if s and s["mean"] is not None}
-        if means:
+        if any(s and s["mean"] is not None for s in spreads.values()):
             cells = [mean_and(spreads[side], "error", factor) for side in feet]
-            band = [_band(plain, means, factor)] if norms else []
-            rows.append(row(title, [*cells, number(gait["symmetry_percent"].get(key), 2), *band]))
+            rows.append(row(title, [*cells, number(gait["symmetry_percent"].get(key), 2)]))
     if not rows:
         return "<p>The recording holds no complete step.</p>"
     caption = "Means ± standard error of one step. Symmetry: 0 is symmetric."
-    if norms:
-        caption += (
-            " Bands: 95 % of women and men of 18 to 49 years who walk freely (after Whittle 2007, <i>Gait "
-            "Analysis</i>; not yet compared with the book); left blue, right red."
-        )
-    head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)", *(["Norm"] if norms else []))
+    head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)")
     return table("Main measures", caption, head, rows)
-
-
-def _band(key: str, means: Mapping[str, float], factor: float) -> str:
-    if key not in NORMS:
-        return ""
-    low, high = NORMS[key]
-    begin = low - 0.5 * (high - low)
-    end = high + 0.5 * (high - low)
-
-    def place(value: float) -> float:
-        return 100.0 * min(1.0, max(0.0, (value - begin) / (end - begin)))
-
-    marks = "".join(
-        f'<rect x="{place(value) - 1.0:.1f}" y="0" width="2" height="12" fill="{COLOURS.get(side, "#111111")}"/>'
-        for side, value in means.items()
-    )
-    words = f"{number(low * factor)} to {number(high * factor)}"
-    return (
-        f'<svg class="band" viewBox="0 0 100 12" preserveAspectRatio="none" role="img" aria-label="norm {words}">'
-        f'<rect x="{place(low):.1f}" y="3" width="{place(high) - place(low):.1f}" height="6" fill="#b8c4d0"/>'
-        f"{marks}</svg> {words}"
-    )
 
 
 def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
