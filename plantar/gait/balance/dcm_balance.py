@@ -42,8 +42,7 @@ class BalanceGains(Part, table="balance"):
 class DcmBalance:
     """DCM feedback with CoM admittance.
 
-    `omega`: pendulum's in rad/s; `mass`: robot's in kg; `period` of control in s; `integral` of the DCM error: gain in
-    1/s, decay in 1/s, limit in m.
+    `omega`: pendulum's in rad/s; `mass`: robot's in kg; `period` of control in s.
     """
 
     wants_contacts = False
@@ -55,7 +54,6 @@ class DcmBalance:
         omega: float,
         mass: float,
         period: float,
-        integral: tuple[float, float, float] = (0.0, 0.0, 0.0),
         admittance: AdmittanceGains | None = None,
     ) -> None:
         self.mass = mass
@@ -65,9 +63,9 @@ class DcmBalance:
         largest = _LARGEST_OFFSET * gains.body.leg
         com = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
         # At xi = xi_r the desired ZMP is the planned VRP; a DCM that is off has its error driven to zero at the rate
-        # k_xi (T 4.18, 4.28). An integral forgets, and rests while the region holds the desired ZMP back.
+        # k_xi (T 4.18, 4.28).
         along = _HELD * gains.body.sole, _PRESS / gains.body.beat
-        self._feedback = DcmFeedback(omega, gains.dcm_gain, integral, period, com, self._offset_first, *along)
+        self._feedback = DcmFeedback(omega, gains.dcm_gain, period, com, self._offset_first, *along)
 
     def update(
         self,

@@ -34,16 +34,12 @@ class WrenchBalanceGains(Part, table="balance"):
 
     Attributes:
         dcm_gain: k_xi of T 4.18 in 1/s.
-        dcm_integral: In 1/s, of the DCM error's integral on the desired ZMP.
         zmp_gain: CoM reference's yield to ZMP error in 1/s (T 4.29).
         com_gain: Its return to the plan in 1/s (T 4.29).
         feet: Admittance of the feet.
     """
 
     dcm_gain: float = share(0.742, "1/beat", 0, 50)
-    dcm_integral: float = number(0.0, "1/s", 0, 50)
-    dcm_forgetting: float = fixed(0.0247, "1/beat")  # Decay of the integral in 1/s
-    largest_integral: float = fixed(0.12, "sole")  # Largest part of the desired ZMP in m by the integral
     zmp_gain: float = number(0.0, "1/s", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
     zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
@@ -89,8 +85,7 @@ class WrenchBalance(DcmBalance):
         period: float,
         weights: DistributionWeights | None = None,
     ) -> None:
-        integral = (gains.dcm_integral, gains.dcm_forgetting, gains.largest_integral)
-        super().__init__(gains, omega, mass, period, integral, gains.feet)
+        super().__init__(gains, omega, mass, period, gains.feet)
         self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:

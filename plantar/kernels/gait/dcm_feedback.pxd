@@ -4,8 +4,6 @@ from ..geometry cimport convex
 from ..base cimport pointers as memory
 from ..base cimport vectors
 
-cdef double _SAME
-
 @cython.final
 cdef class ComAdmittance:
     cdef readonly double x, y, rate_x, rate_y
@@ -14,10 +12,10 @@ cdef class ComAdmittance:
 
 @cython.final
 cdef class DcmFeedback:
-    cdef double omega, held, press, factor, integral_gain, forgetting, largest, period
+    cdef double omega, held, press, factor, period
     cdef ComAdmittance admittance
     cdef bint after
-    cdef double integral_x, integral_y, away_x, away_y
+    cdef double away_x, away_y
     @cython.locals(stiffness=double)
     cpdef tuple decide(self, vrp, planned, com, com_velocity, dcm, zmp, region, bint firm)
     cdef (double, double) _desired(
@@ -25,7 +23,6 @@ cdef class DcmFeedback:
     ) except *
     @cython.locals(share=double, size=double, offset=ComAdmittance)
     cdef (double, double) _go_along(self, const double* planned, const double* dcm, bint may) noexcept
-    cdef double _integrated(self, double integral, double error) noexcept
 
 cdef int _LEFT, _RIGHT
 @cython.locals(share=double)

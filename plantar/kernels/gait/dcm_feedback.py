@@ -8,9 +8,6 @@ from ..geometry import convex
 __all__ = ["ComAdmittance", "DcmFeedback", "shared_load"]
 
 
-_SAME = 1e-9  # m: a desired ZMP that its region moves by less is not held back
-
-
 class ComAdmittance:
     """Offset of the CoM reference from the plan (T 4.29): x, y in m, rates in m/s.
 
@@ -63,29 +60,25 @@ class DcmFeedback:
     Args:
         omega: Pendulum frequency in rad/s.
         gain: k_xi of T 4.28 in 1/s.
-        integral: Integral of DCM error: gain in 1/s, decay in 1/s, limit in m.
         period: Control period in s.
         after: Whether acceleration uses offset after this tick, or before.
         held: Largest ZMP offset in m by ankles; for more the CoM reference goes along.
         press: Its rate in 1/s from ZMP error then.
     """
 
-    def __init__(self, omega, gain, integral, period, admittance, after, held=math.inf, press=0.0):
+    def __init__(self, omega, gain, period, admittance, after, held=math.inf, press=0.0):
         self.omega = omega
         self.held = held
         self.press = press
         self.factor = 1.0 + gain / omega
-        self.integral_gain, self.forgetting, self.largest = integral
         self.period = period
         self.admittance = admittance
         self.after = after
-        self.integral_x = 0.0
-        self.integral_y = 0.0
         self.away_x = 0.0
         self.away_y = 0.0
 
     def decide(self, vrp, planned, com, com_velocity, dcm, zmp, region, firm):
-        """Advance by a tick: desired ZMP p_r + (1 + k_xi / w) (xi - xi_r) with the integral, kept in a region (T 4.28,
+        """Advance by a tick: desired ZMP p_r + (1 + k_xi / w) (xi - xi_r), kept in a region (T 4.28,
         Algorithm 1), and CoM reference (T 4.29).
 
         `vrp`: planned VRP (2,) in m; `planned` DCM and `com` likewise; `com_velocity`: planned velocity (2,) of CoM in
@@ -139,24 +132,15 @@ class DcmFeedback:
         return rx, ry
 
     def _desired(self, vrp, planned, dcm, region):
-        """Desired ZMP's two numbers, and the integral after this tick."""
+        """Desired ZMP's two numbers."""
         ex = dcm[0] - planned[0]
         ey = dcm[1] - planned[1]
-        x = vrp[0] + self.factor * ex + self.integral_x
-        y = vrp[1] + self.factor * ey + self.integral_y
+        x = vrp[0] + self.factor * ex
+        y = vrp[1] + self.factor * ey
         if not len(region):
             return x, y
         # No foot can press outside its contact: what is wanted there is cut to what the ground can give.
-        px, py = convex.nearest(region, x, y)
-        # The integral stands still while the region holds the desired ZMP back.
-        if self.integral_gain > 0.0 and (px - x) * (px - x) + (py - y) * (py - y) < _SAME * _SAME:
-            self.integral_x = self._integrated(self.integral_x, ex)
-            self.integral_y = self._integrated(self.integral_y, ey)
-        return px, py
-
-    def _integrated(self, integral, error):
-        moved = integral + self.period * (self.integral_gain * error - self.forgetting * integral)
-        return min(max(moved, -self.largest), self.largest)
+        return convex.nearest(region, x, y)
 
 
 _LEFT = 1

@@ -112,19 +112,6 @@ def test_soles_that_feel_too_much_pressure_in_front_turn_their_toes_up():
     assert abs(actions["left"].roll) < 1e-4
 
 
-def test_the_integral_grows_to_its_limit_and_forgets():
-    balance, gains = law(dcm_integral=50.0), WrenchBalanceGains()
-    dcm = MIDDLE + np.array([0.01, 0.0])
-    first = balance.update(STILL, dcm, MIDDLE, BOX).zmp_desired
-    for _ in range(2000):
-        last = balance.update(STILL, dcm, MIDDLE, BOX).zmp_desired
-    assert last[0] - first[0] == pytest.approx(gains.largest_integral, rel=0.01)
-    for _ in range(2000):
-        back = balance.update(STILL, MIDDLE, MIDDLE, BOX).zmp_desired
-    left = gains.largest_integral * (1.0 - gains.dcm_forgetting * PERIOD) ** 1999
-    assert back - MIDDLE == pytest.approx([left, 0.0], rel=0.01, abs=1e-9)
-
-
 def test_the_robot_file_names_the_law():
     assert isinstance(balance_gains({}), BalanceGains)
     gains = balance_gains({"law": "wrench_distribution", "dcm_gain": 2.0, "foot_return": 0.5})

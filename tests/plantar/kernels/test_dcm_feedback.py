@@ -15,7 +15,6 @@ from plantar.kernels.gait import dcm_feedback
 FORMS = (dcm_feedback, python_form("dcm_feedback"))
 OMEGA, GAIN, PERIOD, FILTER = 3.4, 2.0, 0.005, 0.02
 ZMP_GAIN, COM_GAIN, LARGEST = 0.8, 1.2, 0.05
-INTEGRAL = (0.7, 0.2, 0.004)
 BOX = np.array([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])
 ANYWHERE = np.empty((0, 2))
 HELD, PRESS = 0.06, 2.0
@@ -23,7 +22,7 @@ HELD, PRESS = 0.06, 2.0
 
 def feedback(module, after):
     offset = module.ComAdmittance(ZMP_GAIN, COM_GAIN, FILTER, PERIOD, LARGEST)
-    return module.DcmFeedback(OMEGA, GAIN, INTEGRAL, PERIOD, offset, after, HELD, PRESS)
+    return module.DcmFeedback(OMEGA, GAIN, PERIOD, offset, after, HELD, PRESS)
 
 
 @pytest.mark.parametrize("after", [True, False])
@@ -32,16 +31,13 @@ def feedback(module, after):
 def test_it_decides_what_numpy_would(after, seed):
     rng = np.random.default_rng(seed)
     kernels = [feedback(module, after) for module in FORMS]
-    integral, offset, error, away = np.zeros((4, 2))
+    offset, error, away = np.zeros((3, 2))
     for tick in range(50):
         vrp, planned, com, velocity, dcm = rng.normal(0.0, 0.03, (5, 2))
         zmp = None if rng.random() < 0.2 else rng.normal(0.0, 0.1, 2)
         region = ANYWHERE if tick % 20 == 7 else BOX if tick < 25 else 0.5 * BOX
-        free = vrp + (1.0 + GAIN / OMEGA) * (dcm - planned) + integral
+        free = vrp + (1.0 + GAIN / OMEGA) * (dcm - planned)
         wanted = free if region is ANYWHERE else closest_point(region, free)
-        if region is not ANYWHERE and np.array_equal(wanted, free):
-            moved = integral + PERIOD * (INTEGRAL[0] * (dcm - planned) - INTEGRAL[1] * integral)
-            integral = np.clip(moved, -INTEGRAL[2], INTEGRAL[2])
         before = offset + away
         error = error + PERIOD / (FILTER + PERIOD) * ((0.0 if zmp is None else zmp - wanted) - error)
         rate = ZMP_GAIN * error - COM_GAIN * offset
@@ -82,7 +78,7 @@ def test_what_is_not_known_is_told_and_leaves_the_integral_alone(module):
 def test_beyond_the_ankles_the_com_falls_as_a_pendulum_does(module):
     """Over a foot that stays flat the CoM follows its DCM; where its reference lags, the body tips by the rest."""
     still = module.ComAdmittance(0.0, COM_GAIN, FILTER, PERIOD)
-    kernel = module.DcmFeedback(OMEGA, GAIN, (0.0, 0.0, 0.0), PERIOD, still, True, HELD, PRESS)
+    kernel = module.DcmFeedback(OMEGA, GAIN, PERIOD, still, True, HELD, PRESS)
     edge, zero, com, dcm = np.array([0.1, 0.0]), np.zeros(2), np.zeros(2), np.array([0.15, 0.0])
     for _ in range(100):
         _, asked, *_ = kernel.decide(zero, zero, zero, zero, dcm, edge, BOX, True)
