@@ -10,7 +10,6 @@ from plantar.common.arrays import array, is_finite
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames
-from plantar.sensing.activation import hysteresis
 from plantar.sensing.proximity import proximity_measure
 
 _CHUNK = 1024  # Frames that are worked on at once
@@ -56,36 +55,20 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
     return bool(stop) if stop.ndim == 0 else stop
 
 
-def sole_wrenches(
-    contact: ArrayLike, virtual: ArrayLike, threshold: float, release: float | None = None
-) -> NDArray[np.float64]:
+class SoleWrenchSwitch:
     """Wrench for preemptive foot compliance: contact plus virtual in the air, contact alone on the ground.
 
     T 4.30 corrected: printed, the virtual part vanishes where |w_f| > 0, which noise exceeds.
 
-    `contact`: wrenches (frames, 6) w_f of taxels' forces in N and N m; `virtual`: wrenches (frames, 6) w_p of
-    proximity; `threshold`: force |f_f| in N above which foot has landed; `release`: force in N at or below which it has
+    `threshold`: force |f_f| in N above which the foot has landed; `release`: force in N at or below which it has
     lifted; half of `threshold` if None.
 
-    Returns wrenches (frames, 6) in N and N m. A part with NaN or inf counts as zero; InputError: not (frames, 6)
-    each.
-
     Example:
-        >>> contact = np.outer([0.0, 0.5, 9.0, 4.0], [0, 0, 1, 0, 0, 0])
-        >>> sole_wrenches(contact, contact * 0 + 2.0, threshold=5.0)[:, 2].tolist()
+        >>> up = np.array([0, 0, 1.0, 0, 0, 0])
+        >>> switch = SoleWrenchSwitch(threshold=5.0)
+        >>> [float(switch.update(force * up, 2.0 * up)[2]) for force in (0.0, 0.5, 9.0, 4.0)]
         [2.0, 2.5, 9.0, 4.0]
     """
-    carried = _finite(contact, ("frames", 6))
-    foreseen = _finite(virtual, ("frames", 6))
-    if carried.shape != foreseen.shape:
-        raise InputError(f"wrenches have shapes {carried.shape} and {foreseen.shape}; expected the same")
-    on = number(threshold, "threshold", nan=True)
-    landed = hysteresis(_size(carried), on, 0.5 * on if release is None else release)
-    return np.where(landed[..., None], carried, carried + foreseen)
-
-
-class SoleWrenchSwitch:
-    """`sole_wrenches`, reading by reading (T 4.30 corrected), with its `threshold` and `release`."""
 
     def __init__(self, threshold: float, release: float | None = None) -> None:
         self.threshold = number(threshold, "threshold", nan=True)

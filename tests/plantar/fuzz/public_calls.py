@@ -74,7 +74,6 @@ INNER: frozenset[str] = frozenset(
             "ground_plane.GroundPlane",
             "proximity.HeightContour",
             "inscribed.Circle",
-            "inscribed.BoundedRectangle",
         ),
         *("foot_tick.FootTick", "base_state.BaseState", "wrench_distribution.WrenchShare"),
         # Takes a function of arrays.
@@ -485,7 +484,6 @@ def _of_wrenches(sole: SoleLayout) -> list[Call]:
             partial(virtual_wrench.early_stop, threshold=8.0),
             virtual_wrench=Argument(np.stack([_WRENCH] * 2), (..., 6), "wrench", nan=True),
         ),
-        _call(partial(virtual_wrench.sole_wrenches, threshold=32.0), **pair),
         Call(
             "virtual_wrench.SoleWrenchSwitch.update",
             lambda contact, virtual: virtual_wrench.SoleWrenchSwitch(32.0).update(contact, virtual),
