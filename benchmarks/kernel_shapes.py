@@ -9,7 +9,7 @@ import numpy as np
 import references as exact
 import shapely
 from numpy.typing import NDArray
-from sample_soles import Contact, contacts, random_outline
+from sample_soles import Contact, contacts
 
 from plantar.bench.comparison import Reference, Result, Route, compare
 from plantar.geometry import enclosing, inscribed, polygon
@@ -22,9 +22,6 @@ Compared = tuple[list[Route], Reference]
 
 OFFSET = 0.01
 """Distance in m of the inner offset that is measured."""
-
-RANDOM = (100, 300)
-"""Cells, active by chance, of the outlines in which rectangles at any angle are measured."""
 
 
 def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
@@ -41,28 +38,11 @@ def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Resul
         ("closest point", lambda: _closest(hulls)),
         *((name, partial(_of_hulls, kernel, hulls)) for name, kernel in _INSIDE.items()),
         ("rectangle in the outline", lambda: _outline_rectangle(few[:3])),
-        ("rectangle in the outline, any angle", lambda: _outline_any_rectangle(few[1:3])),
         *((name, partial(_of_hulls, kernel, hulls)) for name, kernel in _AROUND.items()),
     )
     for name, make in measures:
         routes, reference = make()
         yield name, compare(name, size, routes, reference, rounds)
-
-
-def compare_random_cells(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Yields the largest rectangle's kernel name and its routes' results in random outlines."""
-    name = "rectangle in the outline, any angle, random cells"
-    for cells in RANDOM:
-        outlines = [random_outline(cells, share, 0) for share in (0.3, 0.5, 0.6, 0.7, 0.9)]
-        call = inscribed.rectangle_in_outline_any_angle
-        along = inscribed.rectangle_in_outline
-        routes = [
-            Route("plantar", call, outlines, lambda r: _size(r.corners), ours=True),
-            Route("plantar, its proven bound", call, outlines, lambda r: _size(r.corners) * (1.0 + r.gap), ours=True),
-            Route("plantar, along the axes", along, outlines, _size, approximate=True),
-        ]
-        wanted = [_size(call(o, 3000).corners) for o in outlines]
-        yield name, compare(name, f"{cells} random", routes, Reference(wanted), rounds)
 
 
 def _size(ring: Array) -> float:
@@ -222,42 +202,10 @@ def _outline_rectangle(found: Sequence[Contact]) -> Compared:
     return routes, Reference([_best_known(o, 0.0) for o in outlines])
 
 
-def _outline_any_rectangle(found: Sequence[Contact]) -> Compared:
-    outlines = [concave_outline(c.layout, c.active) for c in found]
-    rings = [list(o.rings) for o in outlines]
-
-    def rasters(rings: list[Array]) -> float:
-        turned = zip(*(rivals.turned(ring, 16) for ring in rings), strict=True)
-        return max(rivals.interior_rectangle(some) for some in turned)
-
-    routes = [
-        Route("plantar", inscribed.rectangle_in_outline_any_angle, outlines, lambda r: _size(r.corners), ours=True),
-        Route("largestinteriorrectangle's method, 1 mm, 16 angles", rasters, rings, approximate=True),
-    ]
-    return routes, Reference([_best_known_at_any_angle(o) for o in outlines])
-
-
 def _best_known(outline: Outline, angle: float) -> float:
     """Best known rectangle's area in m^2 at an angle: ours if valid, or the reference's."""
     ours = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
     return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
-
-
-def _best_known_at_any_angle(outline: Outline) -> float:
-    """The same at any angle: every half degree, then finer around the best four."""
-    found: dict[float, float] = {}
-
-    def areas(angles: Array) -> Array:
-        for a in angles.tolist():
-            found[a] = _size(inscribed.rectangle_in_outline(outline, a))
-        return np.array([found[a] for a in angles.tolist()])
-
-    exact.search_period(areas, 0.5 * np.pi, 180)
-    for angle in sorted(found, key=lambda a: -found[a])[:8]:
-        inside = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
-        if inside:
-            return max(inside, _best_known(outline, 0.0))
-    return _best_known(outline, 0.0)
 
 
 def _area_inside(outline: Outline, corners: Array) -> float:

@@ -19,7 +19,7 @@ from plantar.plotting import new_figure, save_figure
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "plantar"))
 from kernel_percepts import TAXELS, compare_forms, compare_percepts, compare_recordings
-from kernel_shapes import RANDOM, compare_random_cells, compare_shapes
+from kernel_shapes import compare_shapes
 from sample_soles import SIZES
 
 
@@ -54,10 +54,10 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
     `progress` gets fraction done and text. Returns results and targets as plain JSON values, and file names.
     """
     parts: list[Iterator[tuple[str, list[Result]]]] = [compare_shapes(size, rounds) for size in SIZES]
-    parts += [compare_random_cells(rounds), compare_percepts(rounds)]
+    parts += [compare_percepts(rounds)]
     parts += [compare_recordings(rounds=max(3, rounds // 2)), compare_forms(rounds)]
     results: list[Result] = []
-    total = 13 * len(SIZES) + len(RANDOM) + 7
+    total = 12 * len(SIZES) + 7
     done = 0
     for part in parts:
         for name, found in part:

@@ -51,8 +51,8 @@ QUICK = {
         holds=lambda few, many, slope: few < many and abs(slope + 8.0) < 0.1,
     ),
     "percept_rectangles": Example(
-        r"cells (\S+) cm.*inside, along the sole: (\S+) cm.*inside, at any angle: (\S+) cm.*cells, at any angle: (\S+)",
-        holds=lambda cells, along, any_angle, outlined: along < outlined < min(any_angle, cells),
+        r"cells (\S+) cm.*inside, along the sole: (\S+) cm.*inside, at any angle: (\S+) cm.*, along the sole: (\S+)",
+        holds=lambda cells, along, any_angle, outlined: outlined <= min(along, cells) and along < any_angle,
     ),
     "sole_at_an_instant": Example(
         r"left: .*convex polygon (\S+) cm2, concave polygon (\S+) cm2.*wrote sole_left.png",

@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.common.arguments import instance, integer, number
+from plantar.common.arguments import instance, number
 from plantar.errors import InputError
 from plantar.geometry.enclosing import bounding_box, convex_shapes
 from plantar.geometry.outline import Outline
@@ -20,9 +20,8 @@ from plantar.geometry.polygon import convex_ring
 
 _QUARTER = 0.5 * math.pi
 _FIRST = 32  # intervals of a quarter turn that a scan begins with
-_LOOKS = 300  # angles that a scan measures
 _STARTS = 3  # local maxima of a scan that are refined
-_FEW_LOOKS = 64  # of a convex polygon, whose rectangle changes smoothly between its edges' directions
+_LOOKS = 64  # angles that a scan measures: a rectangle changes smoothly between its edges' directions
 _PROVEN = 1e-6  # share of the area that is not looked for
 
 
@@ -31,18 +30,6 @@ class Circle(NamedTuple):
 
     center: NDArray[np.float64]
     radius: float
-
-
-class BoundedRectangle(NamedTuple):
-    """Rectangle's corners (4, 2) in m, none (0, 2) if empty, and the share by which others may be larger.
-
-    Example:
-        >>> BoundedRectangle(np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]), 1e-6).gap
-        1e-06
-    """
-
-    corners: NDArray[np.float64]
-    gap: float
 
 
 def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -104,7 +91,7 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
     # The edges' directions first: the best rectangle often has a side on one, and that of a needle always.
     longest = edges[np.argsort(-np.hypot(*edges.T))[:16]]
     seeds = np.arctan2(longest[:, 1], longest[:, 0])
-    return _scan(lambda angle: inscribed_rectangle(ring, angle), ring, _FEW_LOOKS, seeds).corners
+    return _scan(lambda angle: inscribed_rectangle(ring, angle), ring, seeds)
 
 
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
@@ -124,40 +111,24 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
     return np.asarray(convex_shapes().rectangle_in_outline(outline.points, outline.starts, turn))
 
 
-def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:
-    """Largest rectangle in a concave outline by a scan of angles, and a proven bound on others.
-
-    A rectangle turned by t holds one of d^2 sin(2 t) / 2 less, d its diagonal; the interval of the largest bound is
-    halved.
-
-    `outline`: outline with islands and holes in m. Returns corners (4, 2) in m and gap: no rectangle is larger by more
-    than that share. If empty (0, 2) and 0.
-
-    Example:
-        >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
-        >>> rectangle_in_outline_any_angle(tilted).gap < 0.01
-        True
-    """
-    points = instance(outline, Outline, "outline").points
-    most = integer(looks, "looks", 1)
-    return _scan(lambda angle: rectangle_in_outline(outline, angle), points, most, np.zeros(1))
-
-
 def _scan(
     largest: Callable[[float], NDArray[np.float64]],
     points: NDArray[np.float64],
-    looks: int,
     seeds: NDArray[np.float64],
-) -> BoundedRectangle:
-    """Scan a quarter turn's angles, seeds first, for the largest rectangle."""
+) -> NDArray[np.float64]:
+    """Scan a quarter turn's angles, seeds first, for the largest rectangle.
+
+    A rectangle turned by t holds one of d^2 sin(2 t) / 2 less, d its diagonal; the interval of the largest bound is
+    halved.
+    """
     if not len(points):
-        return BoundedRectangle(np.empty((0, 2)), 0.0)
+        return np.empty((0, 2))
     found = [(_area(corners), angle, corners) for angle in (0.0, *seeds.tolist()) for corners in [largest(angle)]]
     best = max(size for size, _, _ in found)
     reach2 = float((np.ptp(points, axis=0) ** 2).sum())  # no diagonal is longer
     half = 0.5 * _QUARTER / _FIRST
     waiting = [(-math.inf, (2 * k + 1) * half, half) for k in range(_FIRST)]
-    for _ in range(looks):
+    for _ in range(_LOOKS):
         bound, middle, half = waiting[0]
         if -bound <= best * (1.0 + _PROVEN):
             break
@@ -179,8 +150,7 @@ def _scan(
         if f[0] >= max(one, other)
     ]
     starts = sorted(peaks, key=lambda f: -f[0])[:_STARTS]
-    best, corners = max((_climb(largest, *start, least) for start in starts), key=lambda f: f[0])
-    return BoundedRectangle(corners, max(_PROVEN, -waiting[0][0] / best - 1.0) if best > 0.0 else 0.0)
+    return max((_climb(largest, *start, least) for start in starts), key=lambda f: f[0])[1]
 
 
 def _climb(

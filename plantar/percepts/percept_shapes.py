@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from plantar.common.lazy import lazy
 from plantar.geometry import enclosing as _enclosing
 from plantar.geometry import inscribed as _inscribed
-from plantar.geometry.inscribed import BoundedRectangle, Circle, safe_rectangle
+from plantar.geometry.inscribed import Circle, safe_rectangle
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.layout import SoleLayout
 
@@ -77,11 +77,6 @@ class ShapeMembers:
     def outline_rectangle_in_sole(self) -> NDArray[np.float64]:
         """Largest axis-aligned rectangle (4, 2) in the concave outline: all of it is contact."""
         return _inscribed.rectangle_in_outline(self.concave_outline_in_sole)
-
-    @lazy
-    def outline_rectangle_any_angle_in_sole(self) -> BoundedRectangle:
-        """Largest rectangle in the concave outline, any angle, and by what share others may be larger."""
-        return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)
 
     def safe_rectangle_in_sole(self, offset: float) -> NDArray[np.float64]:
         """Largest axis-aligned rectangle (4, 2) in support polygon, sides moved inwards (T 4.4.4).

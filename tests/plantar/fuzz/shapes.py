@@ -27,7 +27,6 @@ references on odd polygons."""
 
 OUTLINE_SHAPES = {
     "outline_rectangle_in_sole": inscribed.rectangle_in_outline,
-    "outline_rectangle_any_angle_in_sole": inscribed.rectangle_in_outline_any_angle,
 }
 
 

@@ -4,19 +4,13 @@ A block of readings is drawn by hypothesis: a sole (lattices, clipped, mixed, cu
 distances, temperatures and accelerations with faults (`soles.py`). A warning of numpy is a failure.
 """
 
-import math
-import time
-
 import numpy as np
 import pytest
-import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar.geometry import polygon
-from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
 
-from ..sample_soles import random_outline
 from .members import MEMBER_CHECKS
 from .shapes import SHAPE_CHECKS
 from .soles import block_of, stress_soles
@@ -43,23 +37,6 @@ def test_odd_readings(check, block):
 @settings(max_examples=300, deadline=None)
 def test_many_odd_readings(check, block):
     check(block)
-
-
-@pytest.mark.parametrize(("cells", "share", "seconds"), [(300, 0.3, 60.0), (100, 0.5, 5.0)])
-def test_the_rectangle_at_any_angle_in_a_random_outline(cells, share, seconds):
-    """Inside, in ten times the processor time of a quiet machine, and its gap holds for a scan of angles."""
-    outline = random_outline(cells, share, 0)
-    begin = time.process_time()
-    corners, gap = rectangle_in_outline_any_angle(outline)
-    assert time.process_time() - begin < seconds
-    parts = shapely.union_all([shapely.Polygon(i[0], i[1:]) for i in outline.islands])
-    found = polygon.area(corners)
-    assert shapely.difference(shapely.Polygon(corners), parts).area <= 1e-9 * found
-    own = math.atan2(*(corners[1] - corners[0])[::-1])
-    angles = [*np.linspace(0.0, 0.5 * math.pi, 12).tolist(), *(own + s for s in (-1e-2, -1e-4, 1e-4, 1e-2))]
-    areas = [polygon.area(rectangle_in_outline(outline, a)) for a in angles]
-    assert areas[0] <= found * (1.0 + 1e-12)
-    assert max(areas) <= found * (1.0 + gap) * (1.0 + 1e-9)
 
 
 def test_a_planted_fault_is_found(monkeypatch):

@@ -18,7 +18,6 @@ from plantar.geometry.inscribed import (
     inscribed_rectangle_any_angle,
     inscribed_triangle,
     rectangle_in_outline,
-    rectangle_in_outline_any_angle,
     safe_rectangle,
 )
 from plantar.geometry.outline import Outline, concave_outline
@@ -69,7 +68,7 @@ def test_an_angle_that_is_none_is_refused(angle):
     with pytest.raises(InputError, match="angle is"):
         rectangle_in_outline(Outline.of_rings([square]), angle)
     with pytest.raises(InputError, match="outline is a list; expected"):
-        rectangle_in_outline_any_angle(square)
+        rectangle_in_outline(square)
 
 
 def test_triangle_where_the_linear_walk_fails():
@@ -226,21 +225,6 @@ def test_rectangle_in_outline_of_the_transposed_outline_is_the_same(seed):
     assert area(rectangle_in_outline(flipped)) == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize("turn", [0.0, 0.3])
-def test_a_rectangle_whose_area_stays_the_same_over_angles_is_found_in_time(turn):
-    # Three cells in a row: between two angles the largest rectangle turns without changing its area.
-    layout = hex_layout([[-0.2, -0.1], [0.2, -0.1], [0.2, 0.1], [-0.2, 0.1]], angle=turn)
-    row = np.zeros(len(layout), dtype=bool)
-    middle = np.argmin(np.hypot(*layout.positions[:, :2].T))
-    beside = [i for i in layout.neighbours[middle] if i >= 0]
-    row[[middle, beside[0], beside[1]]] = True
-    outline = concave_outline(layout, row)
-    found = area(rectangle_in_outline_any_angle(outline).corners)
-    steps = 400 if compiled else 40
-    best = max(area(rectangle_in_outline(outline, a)) for a in np.linspace(0.0, math.pi / 2, steps))
-    assert best * (1 - 1e-6) <= found <= outline.area
-
-
 def test_islands_that_share_an_edge_are_crossed():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     beside = square + np.array([1.0, 0.0])
@@ -254,46 +238,8 @@ def test_rectangle_goes_round_a_hole():
 
 def test_empty_and_tiny_outlines_have_rectangles():
     assert rectangle_in_outline(Outline.of_rings([])).shape == (0, 2)
-    assert rectangle_in_outline_any_angle(Outline.of_rings([])).corners.shape == (0, 2)
     far = np.array([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]]) + 1e6
     assert area(rectangle_in_outline(Outline.of_rings([far]))) == pytest.approx(0.02, rel=1e-8)
-
-
-# --- outline at any angle: the gap is true, and more looks give no less ---------------------------------------------
-
-
-@settings(max_examples=20)
-@given(seeds, st.sampled_from([60, 300]))
-def test_no_other_angle_has_more_than_the_gap_allows(seed, looks):
-    outline = random_contact(seed)
-    corners, gap = rectangle_in_outline_any_angle(outline, looks)
-    angles = np.random.default_rng(seed).uniform(0.0, math.pi, 60)
-    best = max(area(rectangle_in_outline(outline, a)) for a in [0.0, *angles])
-    assert best <= area(corners) * (1.0 + gap) * (1.0 + 1e-9)
-    assert best <= area(corners) * 1.02  # and the refined scan is close whatever is proven
-
-
-@settings(max_examples=10)
-@given(seeds)
-def test_more_looks_give_no_larger_gap(seed):
-    outline = random_contact(seed)
-    found = [rectangle_in_outline_any_angle(outline, looks) for looks in (40, 100, 400)]
-    bounds = [area(corners) * (1.0 + gap) for corners, gap in found]
-    assert bounds[0] >= bounds[1] * (1.0 - 1e-6) >= bounds[2] * (1.0 - 2e-6)
-
-
-def test_the_corners_are_inside_and_no_less_than_along_the_axes():
-    for seed in range(10):
-        outline = random_contact(seed)
-        corners, _ = rectangle_in_outline_any_angle(outline)
-        assert as_shape(outline).buffer(1e-9).covers(shapely.Polygon(corners))
-        assert area(corners) >= area(rectangle_in_outline(outline)) * (1.0 - 1e-12)
-
-
-@pytest.mark.parametrize("looks", [0, -1, 2.5, "much", None])
-def test_looks_are_a_whole_number_above_0(looks):
-    with pytest.raises(InputError, match="looks"):
-        rectangle_in_outline_any_angle(Outline.of_rings([[[0, 0], [1, 0], [1, 1], [0, 1]]]), looks)
 
 
 # --- safe rectangle -----------------------------------------------------------------------------------------------
