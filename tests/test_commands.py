@@ -101,3 +101,17 @@ def test_demo_makes_all_three_and_names_them(tmp_path):
     shown = re.findall(r"plantar analyze (\S+\.mcap)", analyze.__doc__ or "")
     assert shown
     assert set(shown) <= set(made["files"])  # what the help of analyze takes is what a demo leaves
+
+
+def test_small_demo_needs_neither_simulator_nor_cad(tmp_path):
+    absent = "import sys; sys.modules |= dict.fromkeys(['mujoco', 'cadquery', 'cv2'])"
+    command = "sys.argv = ['plantar', 'demo', '--small', '-o', 'out', '--json']"
+    code = f"{absent}; {command}; from plantar.__main__ import main; main()"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    made = json.loads(done.stdout)
+    for name, least in (("robot", 2), ("insole", 12)):
+        feet = made["analysis"][name]["feet"]
+        assert all(foot["steps"] >= least for foot in feet.values()), feet
+    for page in ("robot/report.html", "robot/view.html", "insole/report.html"):
+        assert (tmp_path / "out" / page).stat().st_size > 100_000
