@@ -11,6 +11,9 @@ from typing import NamedTuple
 
 import pytest
 
+from plantar.robots.controller import load_controller
+from tests.unitree_stub import StubRobot, stub_modules, typed
+
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 PICTURES = ("gallery", "walk_picture", "beam_picture")
@@ -93,6 +96,9 @@ QUICK = {
     ),
     "own_policy": Example(r"FootholdResult\(completed=False, steps=0, planned=8"),
     "walk_own_computer": Example(r"walked (\S+) m and stands", holds=lambda way: 0.4 < way < 0.65),
+    "walk_by_keyboard": Example(
+        r"at (\S+) (\S+) m, (\S+) m high; walks", holds=lambda x, y, height: 0.0 < x < 0.6 and height > 0.7
+    ),
     "walk_own_loop": Example(
         r"walked (\S+) m; the controller thinks (\S+) m",
         holds=lambda true, found: true > 0.55 and abs(true - found) < 0.03,
@@ -125,6 +131,7 @@ ELSEWHERE = {
     "record_to_tables",  # below, on the recording of another one
     "skin_arm",  # test_skin_examples.py
     "skin_new_task",
+    "walk_unitree",  # below, against a stub of its SDK
     "gallery",  # test_gallery.py
     "walk_picture",  # draws a run of a minute
 }
@@ -171,6 +178,22 @@ def test_a_recording_becomes_tables(tmp_path, monkeypatch, capsys):
         runpy.run_path(str(ROOT / "examples" / f"{name}.py"), run_name="__main__")
     assert "/skin/left: 1000 rows of force (42)" in capsys.readouterr().out
     assert {"run.npz", "motors.csv"} <= {p.name for p in (tmp_path / "out").iterdir()}
+
+
+@pytest.mark.long
+def test_a_bridge_walks_by_the_messages_of_the_sdk(monkeypatch):
+    robot = StubRobot(until=16.0)
+    stance = load_controller("h1", commanded=True)
+    robot.stand(stance.base_position, stance.stance.angles)
+    for name, module in stub_modules(robot).items():
+        monkeypatch.setitem(sys.modules, name, module)
+    monkeypatch.setattr(sys, "argv", ["walk_unitree.py", "h1", "eth0"])
+    monkeypatch.setattr(sys, "stdin", typed(robot, {10.0: "0.2 0 0", 13.0: ""}))
+    bridge = runpy.run_path(str(ROOT / "examples" / "walk_unitree.py"), run_name="__main__")
+    assert robot.ended
+    assert bridge["walker"].state is None, bridge["walker"].findings
+    assert min(robot.heights) > 0.9 * robot.heights[0]
+    assert robot.data.qpos[0] > 0.2
 
 
 def test_every_example_is_run_by_a_test():

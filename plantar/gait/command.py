@@ -36,6 +36,7 @@ class Sensors(Record, frozen=True):
             sensors.
         skin: Latest reading of the upper body's skin (`ControllerSettings.skin`), or None.
         links: Origin (3,) in m and rotation (3, 3), base frame, of each moving link with skin.
+        torques: Measured by the joints' motors (k,) in N m, for soles without sensors (`load_controller`), or None.
     """
 
     time: float
@@ -46,6 +47,7 @@ class Sensors(Record, frozen=True):
     ankles: Mapping[Side, NDArray[np.float64]] = msgspec.field(default_factory=dict)
     skin: SkinReading | None = None
     links: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = msgspec.field(default_factory=dict)
+    torques: NDArray[np.float64] | None = None
 
 
 class FootTarget(Record, frozen=True):
@@ -73,6 +75,19 @@ class JointTargets(NamedTuple):
     velocities: NDArray[np.float64] | None = None
     stiffness: NDArray[np.float64] | None = None
     damping: NDArray[np.float64] | None = None
+
+
+class MotorCommand(NamedTuple):
+    """Low-level command of leg motors: each exerts kp (q - angle) + kd (dq - rate) + torque.
+
+    `q` (k,) in rad; `dq` (k,) in rad/s; `kp` (k,) in N m/rad; `kd` (k,) in N m s/rad; `torque` (k,) in N m.
+    """
+
+    q: NDArray[np.float64]
+    dq: NDArray[np.float64]
+    kp: NDArray[np.float64]
+    kd: NDArray[np.float64]
+    torque: NDArray[np.float64]
 
 
 class Command(Record, frozen=True):

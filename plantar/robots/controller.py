@@ -1,8 +1,9 @@
 """A robot's walking controller and leg kinematics, for your own control loop, without a simulator."""
 
+import math
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,10 +16,11 @@ from plantar.common.gravity import GRAVITY
 from plantar.common.optional_library import missing_libraries
 from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError, RecordingError, SceneError
-from plantar.gait.command import Command, JointTargets, Sensors
+from plantar.gait.command import Command, JointTargets, MotorCommand, Sensors
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.gait.propose.velocity_command import STOP, Velocity, VelocityCommand
 from plantar.gait.safety.bring_up.bring_up import BringUp
 from plantar.gait.safety.bring_up.finding import Finding
 from plantar.gait.safety.fault_log import Fault
@@ -32,14 +34,20 @@ from plantar.robots.kinematics.leg_inertia import leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.kinematics.standing_posture import solve_standing
+from plantar.robots.motors.command_motors import Gains, MotorGains
 from plantar.robots.motors.planned_motion import PlannedMotion
 from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
-from plantar.robots.start import start_of_walk
+from plantar.robots.sole_readings import AnkleSoles, SoleSource, TorqueSoles
+from plantar.robots.start import start_of_walk, velocity_command
 from plantar.robots.walk import Control, Walk, crouches
 
-__all__ = ["JointTargets", "RobotController", "load_controller"]
+__all__ = ["JointTargets", "MotorCommand", "RobotController", "load_controller"]
+
+_STANDS = 0.25  # of the servos' stiffness, 12 m g h: three times what two ankles need to stand
+_SOLES = ("taxels", "force_torque", "torques")
+_NO_TAXELS: Mapping[str, Any] = {"footholds": "off", "pfc": False, "conform": False, "feasibility": "off"}
 
 
 @dataclass(eq=False)
@@ -48,7 +56,7 @@ class RobotController:
 
     `joints`: leg joint names, in order of every joint vector; `period`: control period in s; call `step` once in each;
     `stance`: joint angles and torques before the start; `base_position`: base position (3,) in m in that stance, world
-    frame; `began`: whether sensors were sound.
+    frame; `began`: whether sensors were sound; `gains`: of the joints' motors.
 
     Before the first step it checks the robot for 6 s (docs/safety.md): it stands, leans and unloads each foot. What
     fails is in `findings`, and it then keeps standing.
@@ -67,6 +75,9 @@ class RobotController:
     stance: JointTargets
     base_position: NDArray[np.float64] = field(repr=False)
     motion: PlannedMotion = field(repr=False)
+    gains: MotorGains = field(repr=False)
+    velocities: VelocityCommand = field(repr=False)
+    soles: SoleSource | None = field(default=None, repr=False)
     began: bool = field(default=False, init=False)
 
     @property
@@ -89,8 +100,31 @@ class RobotController:
         """Time in s since the first tick at which the walk is over, with its bring-up."""
         return self.controller.end + (0.0 if self.bring_up is None else self.bring_up.duration)
 
-    def stop(self, *, limp: bool = False) -> None:
-        """Emergency stop, from any thread: at the next tick it begins to put both feet down and sits; `limp` goes limp.
+    def set_velocity(self, forward: float, left: float, turn: float) -> None:
+        """Walk at a velocity from the next touchdown on, or start to; at any tick, from any thread, until the next.
+
+        Replaces what is left of a number of steps. Zeros step in place; `stop` stands. Larger velocities than the
+        longest steps allow are walked by those (`plantar list settings stride`).
+
+        Args:
+            forward: In m/s, frame of the feet.
+            left: In m/s.
+            turn: In rad/s.
+
+        Raises:
+            InputError: A value is not finite.
+        """
+        self.velocities.set_velocity(Velocity(*map(float, (forward, left, turn))))
+
+    def stop(self) -> None:
+        """Close the feet with the next step and stand until the next `set_velocity`; at any tick, from any thread.
+
+        `emergency_stop` ends the walk for good.
+        """
+        self.velocities.set_velocity(STOP)
+
+    def emergency_stop(self, *, limp: bool = False) -> None:
+        """From any thread: at the next tick it begins to put both feet down and sits; `limp` goes limp.
 
         It stays stopped: make a new controller to go on.
         """
@@ -129,6 +163,8 @@ class RobotController:
 
     def step(self, sensors: Sensors) -> Command:
         """One control tick: command of CoM, torso and soles. Until sensors were sound, InputError names what is not."""
+        if self.soles is not None:
+            sensors = sensors.changed(readings=self.soles.readings(sensors))
         self.began = self.began or self._sound(sensors)
         return self.controller.step(sensors)
 
@@ -168,6 +204,22 @@ class RobotController:
         self._give(angles)
         return JointTargets(angles, self.legs.torques.copy())
 
+    def motor_command(self, command: Command) -> MotorCommand:
+        """A command as makers' low-level commands have it, for each joint; instead of `joint_targets`, once a tick.
+
+        With the gains of `control.drives` (a robot's servos, its motors, or `load_controller`'s); while bring-up
+        checks, which stands without balancing, at least a quarter of the servos' stiffness. A robot that goes limp
+        keeps the damping alone.
+        """
+        targets = self.joint_targets(command)
+        velocities = self.motion.velocity[6:] if targets.velocities is None else targets.velocities
+        stiffness, damping = self.gains
+        if self.bring_up is not None and not self.bring_up.passed:
+            stiffness = np.maximum(stiffness, _STANDS * np.array([*self.robot.stiffness] * 2))
+            damping = np.maximum(damping, math.sqrt(_STANDS) * np.array([*self.robot.damping] * 2))
+        share = command.stiffness
+        return MotorCommand(targets.angles, share * velocities, share * stiffness, damping, share * targets.torques)
+
     def _give(self, angles: NDArray[np.float64]) -> None:
         """Compare the next angles with these, a copy: the caller may change what it gets."""
         if self.controller.shell is not None:
@@ -176,7 +228,13 @@ class RobotController:
 
 @missing_libraries("sim")
 def load_controller(
-    robot: str | os.PathLike[str], tables: Mapping[str, Mapping[str, Any]] | None = None, *, seed: int = 0
+    robot: str | os.PathLike[str],
+    tables: Mapping[str, Mapping[str, Any]] | None = None,
+    *,
+    seed: int = 0,
+    commanded: bool = False,
+    gains: Gains | None = None,
+    soles: str = "taxels",
 ) -> RobotController:
     """Load the walking controller of a robot.
 
@@ -185,6 +243,12 @@ def load_controller(
         tables: Tables of a scene file: "walk", "control", and those of the controller's parts (`plantar list
             settings`). Default: 20 steps forward.
         seed: Draws the velocities of a walk that wanders.
+        commanded: Stand until `RobotController.set_velocity`, and step in the quick steps of commanded walks.
+        gains: Of the motors of single joints, by name: stiffness in N m/rad, or (stiffness, damping in N m s/rad);
+            others keep their own (`control.joint_stiffness`, the robot's file). For drives "own" and "torque".
+        soles: What measures the soles' loads: "taxels"; "force_torque", sensors at the ankles (`Sensors.ankles`); or
+            "torques" of the leg motors (`Sensors.torques`). Without taxels every foothold counts as a whole sole, and
+            `Sensors.readings` may be empty.
 
     Returns:
         The controller, before its first tick. It takes no step before its bring-up has passed
@@ -198,16 +262,21 @@ def load_controller(
     body = body_of(own, legs.model)
     given = dict(instance(tables or {}, Mapping, "tables", SceneError))
     refuse_unknown_keys(given, ("walk", "control", *CONTROLLER_TABLES), "load_controller", SceneError)
-    walk = Walk.from_table(given.pop("walk", {}), "[walk]", SceneError).for_body(body)
-    control = Control.from_table(given.pop("control", {}), "[control]", SceneError).for_body(body)
+    walk = Walk.from_table(_commanded(given.pop("walk", {}), commanded), "[walk]", SceneError).for_body(body)
+    control = Control.from_table(_without_taxels(given.pop("control", {}), soles), "[control]", SceneError).for_body(
+        body
+    )
     parts = {name: check_controller_table(name, table, f"[{name}]", SceneError) for name, table in given.items()}
     task: Any = SimpleNamespace(name="load_controller", walk=walk, control=control, controller=parts)
     task.proximity_range = own.layouts["left"].proximity_range
     limits = ankle_limits(own, legs.model, body.weight, crouches(walk, own)[1])
     inertia = leg_inertia(own, legs, com_height_of(walk, own))
-    settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits, inertia=inertia)
-    start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))
-    motors = command_motors(own, legs, body, control, settings.period)
+    ankles = ankle_sensors(legs.model, own)
+    settings = controller_settings(task, own, body, ankles, limits, inertia=inertia)
+    table = walk.velocities(seed)
+    velocities = velocity_command(walk, own, settings.com_height, table)
+    start = replace(start_of_walk(walk, own, settings.com_height, velocities=table), commands=(velocities,))
+    motors = command_motors(own, legs, body, control, settings.period, gains or {})
     controller = WalkingController(settings, start, own.layouts, legs, motors)
     centers = {s: vrp_of_step(foot, controller.middles[s]) for s, foot in start.feet.items()}
     stance = JointTargets(*solve_standing(own, legs, start.feet, centers, settings.com_height))
@@ -216,4 +285,46 @@ def load_controller(
     place = legs.configuration[:3]
     if controller.shell is not None:
         controller.shell.bring_up = bring_up_of(own, controller, start.feet)
-    return RobotController(own, legs, controller, names, settings.period, stance, place, motion)
+    source: SoleSource | None = None
+    if soles == "force_torque":
+        source = AnkleSoles(own.layouts, ankles, legs)
+    elif soles == "torques":
+        source = TorqueSoles(own.layouts, legs, own.legs)
+    return RobotController(
+        own,
+        legs,
+        controller,
+        names,
+        settings.period,
+        stance,
+        place,
+        motion,
+        MotorGains(np.array([*own.stiffness] * 2), np.array([*own.damping] * 2))
+        if motors is None
+        else MotorGains(motors.stiffness, motors.damping),
+        velocities,
+        source,
+    )
+
+
+def _commanded(walk: Mapping[str, Any], commanded: bool) -> Mapping[str, Any]:
+    """A [walk] table that stands at first, if it is `commanded`."""
+    if not commanded:
+        return walk
+    for name in ("steps", "velocity", "commands", "wander"):
+        if name in walk:
+            raise SceneError(f"[walk] {name} is given, and commanded, too; allowed: one of them")
+    return {**walk, "commands": [[0.0, "stop"]]}
+
+
+def _without_taxels(control: Mapping[str, Any], soles: str) -> Mapping[str, Any]:
+    """A [control] table that fits what measures the `soles`; SceneError for what they do not."""
+    if soles not in _SOLES:
+        raise SceneError(f"soles is {soles!r}; allowed: {', '.join(_SOLES)}")
+    if soles == "taxels":
+        return control
+    without = {**_NO_TAXELS, "zmp_source": "force_torque" if soles == "force_torque" else "skin"}
+    for name, value in without.items():
+        if control.get(name, value) != value:
+            raise SceneError(f"[control] {name} is {control[name]!r}; allowed for soles = {soles!r}: {value!r}")
+    return {**control, **without}

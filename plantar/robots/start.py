@@ -40,10 +40,21 @@ def start_of_walk(
         )
     if velocities is None:
         return Start(feet, plan, walk.begin)
+    return Start(feet, plan, walk.begin, (velocity_command(walk, robot, com_height, velocities),))
+
+
+def velocity_command(
+    walk: Walk, robot: Robot, com_height: float, velocities: VelocityTable | None = None
+) -> VelocityCommand:
+    """What turns velocities into a robot's steps; without `velocities` it waits for the first that is set.
+
+    `com_height`: above the soles in m; `velocities`: commanded over time.
+    """
+    width = (walk.stance_width or robot.stance_width) + walk.wider
     outline = robot.layouts["left"].outline
     rear, inner = (-outline.min(axis=0)).tolist()
     toe = float(outline[:, 0].max())
-    return Start(feet, plan, walk.begin, (VelocityCommand(velocities, Legs(width, com_height, rear, toe, inner)),))
+    return VelocityCommand(velocities, Legs(width, com_height, rear, toe, inner))
 
 
 STEPS_A_ROUND = 6

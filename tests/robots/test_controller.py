@@ -113,12 +113,95 @@ def test_no_step_is_taken_before_bring_up_has_passed():
     assert walker.end == pytest.approx(walker.controller.end + 5.95)
 
 
+@pytest.mark.parametrize("period", [0.002, 0.003])
+def test_bring_up_judges_at_any_period(period):
+    walker = load_controller("h1", {"control": {"period": period}})
+    for tick in range(round(3.3 / period)):
+        walker.step(resting(walker, tick * period))
+    assert walker.state == "refused"  # by sensors that never move
+    assert walker.findings
+
+
+@pytest.mark.parametrize("drives", ["own", "torque"])
+def test_motors_hold_the_stance_while_bring_up_checks(drives):
+    walker = load_controller("h1", {"control": {"drives": drives, "joint_stiffness": 100}})
+    for tick in range(3):
+        motors = walker.motor_command(walker.step(resting(walker, tick * walker.period)))
+        assert motors.q == pytest.approx(walker.stance.angles, abs=1e-3)
+        height = walker.controller.settings.com_height
+        share = 0.005 * 9.81 * walker.legs.mass * height  # of what holds a pendulum, m g h
+        assert motors.torque == pytest.approx(walker.stance.torques, abs=share)
+        assert motors.kp.min() >= 0.25 * min(walker.robot.stiffness)
+    walker.count_as_checked()
+    assert walker.motor_command(walker.step(resting(walker, 0.02))).kp.max() == 100.0
+
+
 def test_targets_are_the_callers_own(walker):
     command = walker.step(resting(walker, 0.005))
     first = walker.joint_targets(command)
     kept = first.angles.copy()
     walker.joint_targets(walker.step(resting(walker, 0.01)))
     assert np.array_equal(first.angles, kept)
+
+
+def test_a_motor_command_is_the_joint_targets_with_gains_and_rates(walker):
+    command = walker.step(resting(walker, 0.015))
+    motors = walker.motor_command(command)
+    assert [field.shape for field in motors] == [(12,)] * 5
+    assert np.array_equal(motors.q, walker.legs.joints)
+    assert np.array_equal(motors.torque, walker.legs.torques)
+    assert np.array_equal(motors.dq, walker.motion.velocity[6:])
+    assert motors.kp.tolist() == [*walker.robot.stiffness] * 2
+    limp = walker.motor_command(walker.step(resting(walker, 0.02)).changed(stiffness=0.0))
+    assert not limp.kp.any()
+    assert not limp.torque.any()
+    assert limp.kd.tolist() == [*walker.robot.damping] * 2
+
+
+def test_gains_of_single_joints_replace_those_of_the_motors():
+    control = {"control": {"drives": "own"}}
+    own = load_controller("h1", control).gains
+    gains = load_controller("h1", control, gains={"left_knee": 150.0, "right_knee": (150, 4.0)}).gains
+    left, right = 3, 9
+    assert [gains.stiffness[left], gains.stiffness[right], gains.damping[right]] == [150.0, 150.0, 4.0]
+    share = gains.damping[left] / own.damping[left]
+    assert share == pytest.approx(np.sqrt(150.0 / own.stiffness[left]))  # the same share of critical
+    rest = [k for k in range(12) if k not in (left, right)]
+    assert np.array_equal(gains.stiffness[rest], own.stiffness[rest])
+    assert np.array_equal(gains.damping[rest], own.damping[rest])
+
+
+@pytest.mark.parametrize(
+    ("drives", "gains", "words"),
+    [
+        ("own", {"knee": 150.0}, "joint 'knee'; allowed: left_hip_yaw, "),
+        ("own", {"left_knee": -1.0}, r"'left_knee' are -1.0; allowed: stiffness in N m/rad"),
+        ("own", {"left_knee": (1.0, 2.0, 3.0)}, "allowed: stiffness in N m/rad, or"),
+        ("own", {"left_knee": "150"}, "are '150'"),
+        ("servo", {"left_knee": 150.0}, "drives 'servo' has its own; allowed: drives 'own' or 'torque'"),
+    ],
+)
+def test_gains_that_no_motor_takes_are_named(drives, gains, words):
+    with pytest.raises(InputError, match=words):
+        load_controller("h1", {"control": {"drives": drives}}, gains=gains)
+
+
+@pytest.mark.parametrize(
+    ("more", "tables", "words"),
+    [
+        ({"soles": "shoes"}, {}, "soles is 'shoes'; allowed: taxels, force_torque, torques"),
+        ({"soles": "torques"}, {"control": {"pfc": True}}, r"pfc is True; allowed for soles = 'torques': False"),
+        ({"commanded": True}, {"walk": {"steps": 4}}, "steps is given, and commanded, too"),
+    ],
+)
+def test_what_does_not_go_together_is_named(more, tables, words):
+    with pytest.raises(SceneError, match=words):
+        load_controller("h1", tables, **more)
+
+
+def test_a_velocity_that_is_no_number_is_named(walker):
+    with pytest.raises(InputError, match="velocity 'left' is nan"):
+        walker.set_velocity(0.1, float("nan"), 0.0)
 
 
 @pytest.mark.parametrize(

@@ -153,16 +153,23 @@ def _moved(x: float, y: float, yaw: float, ahead: float, across: float) -> tuple
 
 
 class VelocityCommand:
-    """Proposes steps at a commanded velocity."""
+    """Proposes steps at a commanded velocity.
+
+    `table`: commands over time; None leaves the plan alone until the first `set_velocity`.
+    """
 
     priority = Priority.COMMAND
 
-    def __init__(self, table: VelocityTable, legs: Legs, stride: Stride | None = None) -> None:
+    def __init__(self, table: VelocityTable | None, legs: Legs, stride: Stride | None = None) -> None:
         self.table = table
         self.legs = legs
         self.stride = Stride() if stride is None else stride
         self._planned = -1
         self._proposed: PlanChange | None = None
+
+    def set_velocity(self, velocity: Velocity | None) -> None:
+        """Walk at a `velocity` from now on, instead of the table; None stops. From any thread."""
+        self.table = VelocityTable((0.0,), (velocity,))  # one assignment: a tick reads the one or the other
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """The next steps, at touchdown or from standing."""
@@ -171,9 +178,10 @@ class VelocityCommand:
             self._proposed = None
         phase = tick.phase
         plan = tick.plan
-        if phase.kind == PhaseKind.SINGLE_SUPPORT:
+        table = self.table
+        if table is None or phase.kind == PhaseKind.SINGLE_SUPPORT:
             return None
-        velocity = self.table.at(tick.time)
+        velocity = table.at(tick.time)
         timing = plan.schedule.timing
         if velocity is STOP and phase.step >= plan.count:
             return None  # at rest, or on the way to it

@@ -56,7 +56,7 @@ def standing_command(
         feet=targets,
         phase=phase,
         reference=reference,
-        zmp_desired=com[:2].copy(),
+        zmp_desired=reference.vrp,  # the plan's own: nothing is balanced yet, which motors go by
         state=state,
         dcm=com[:2].copy(),
         percepts={side: Percept(layouts[side], Reading(0.0, np.zeros(len(layouts[side])))) for side in SIDES},

@@ -4,6 +4,9 @@
 `plantar.robots.motors.torque_control`.
 """
 
+import math
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -11,11 +14,14 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import BodyScale
 from plantar.common.sides import SIDES, Side
+from plantar.errors import InputError
 from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.robots.kinematics.command_joints import REACH_ERROR, SLOW, SPEED_SHARE, follow_command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.motors.planned_motion import PlannedMotion
 from plantar.robots.robot import Robot
+
+_MOST_GAIN = 1e6  # N m/rad and N m s/rad, as in a robot's file
 
 
 class MotorGains(NamedTuple):
@@ -28,16 +34,44 @@ class MotorGains(NamedTuple):
     damping: NDArray[np.float64]
 
 
-def motor_gains(robot: Robot, stiffness: float) -> MotorGains:
+Gains = Mapping[str, float | Sequence[float]]
+"""Gains of joints by name: stiffness in N m/rad, or (stiffness, damping in N m s/rad)."""
+
+
+def motor_gains(robot: Robot, stiffness: float, given: Gains = MappingProxyType({})) -> MotorGains:
     """Returns gains of a robot's own motors.
 
-    `stiffness` in N m/rad of every joint instead, damped in proportion to critical; 0 for its own.
+    `stiffness` in N m/rad of every joint instead; 0 for its own; `given`: of single joints instead. Where no damping is
+    given, it stays the same share of critical.
+
+    Raises:
+        InputError: A joint that is not of the legs, or gains that are not allowed.
     """
     own = np.array([*robot.own_stiffness] * 2)
     damping = np.array([*robot.own_damping] * 2)
-    if not stiffness:
-        return MotorGains(own, damping)
-    return MotorGains(np.full(len(own), stiffness), damping * np.sqrt(stiffness / np.maximum(own, 1.0)))
+    names = [*robot.legs["left"].joints, *robot.legs["right"].joints]
+    for name in given:
+        if name not in names:
+            raise InputError(f"gains name joint {name!r}; allowed: {', '.join(names)}")
+    wanted = np.full(len(own), stiffness) if stiffness else own.copy()
+    damped = np.full(len(own), math.nan)
+    for place, name in enumerate(names):
+        if name in given:
+            wanted[place], damped[place] = _checked_gains(name, given[name])
+    scaled = np.where(wanted == own, damping, damping * np.sqrt(wanted / np.maximum(own, 1.0)))
+    return MotorGains(wanted, np.where(np.isnan(damped), scaled, damped))
+
+
+def _checked_gains(name: str, given: float | Sequence[float]) -> tuple[float, float]:
+    """A joint's stiffness and damping; the latter is NaN where it is not given."""
+    values = list(given) if isinstance(given, Sequence) and not isinstance(given, str) else [given]
+    numbers = [v for v in values if isinstance(v, (int, float)) and not isinstance(v, bool) and 0.0 <= v <= _MOST_GAIN]
+    if not 1 <= len(values) <= 2 or len(numbers) != len(values):
+        raise InputError(
+            f"gains of joint {name!r} are {given!r}; allowed: stiffness in N m/rad, or (stiffness, damping in N m "
+            f"s/rad), each from 0 to {_MOST_GAIN:g}"
+        )
+    return float(numbers[0]), float(numbers[1]) if len(numbers) == 2 else math.nan
 
 
 def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:

@@ -6,6 +6,7 @@ torques are those of the planned motion.
 """
 
 import math
+from types import MappingProxyType
 
 import mujoco
 import numpy as np
@@ -13,12 +14,13 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import BodyScale
 from plantar.common.sides import SIDES, Side, other_side
+from plantar.errors import InputError
 from plantar.gait.command import Command, Sensors
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.motors.body_dynamics import BodyDynamics
-from plantar.robots.motors.command_motors import CommandMotors, MotorGains, motor_gains, planned_wrenches
+from plantar.robots.motors.command_motors import CommandMotors, Gains, MotorGains, motor_gains, planned_wrenches
 from plantar.robots.motors.torque_program import Standing, Torques, Wish, torques_of
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Control
@@ -206,13 +208,24 @@ class TorqueControl(CommandMotors):
 
 
 def command_motors(
-    robot: Robot, legs: LegModel, body: BodyScale, control: Control, period: float
+    robot: Robot,
+    legs: LegModel,
+    body: BodyScale,
+    control: Control,
+    period: float,
+    gains: Gains = MappingProxyType({}),
 ) -> CommandMotors | None:
     """What drives a robot.
 
-    Takes `robot`, `legs`, `body`, `control` and control `period` in s; returns None for position servos.
+    Takes `robot`, `legs`, `body`, `control`, control `period` in s and `gains` of single joints; returns None for
+    position servos.
+
+    Raises:
+        InputError: `gains` that no drive takes, or that are not allowed.
     """
     if control.drives == "servo":
+        if gains:
+            raise InputError("gains are given, but drives 'servo' has its own; allowed: drives 'own' or 'torque'")
         return None
     kind = TorqueControl if control.drives == "torque" else CommandMotors
-    return kind(robot, legs, body, motor_gains(robot, control.joint_stiffness), period)
+    return kind(robot, legs, body, motor_gains(robot, control.joint_stiffness, gains), period)

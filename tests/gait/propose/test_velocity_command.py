@@ -192,3 +192,38 @@ def test_bad_tables_are_refused():
         Velocity(turn=math.nan)
     with pytest.raises(InputError, match="'turn' is 5"):
         Stride(turn=5.0)
+
+
+def test_velocities_are_set_at_any_tick_and_a_plan_is_left_alone_before(tick_at):
+    command = VelocityCommand(None, LEGS)
+    plan, steps = walked(command, tick_at, 6.0, count=3)
+    assert plan.view.count == 3 == len(steps)  # as it was planned
+    set_at = {50: Velocity(forward=0.1), 151: STOP, 290: Velocity(turn=0.2), 400: STOP}
+    command = VelocityCommand(None, LEGS)
+
+    def tick(plan, time):
+        if round(10.0 * time - 0.5) in set_at:
+            command.set_velocity(set_at[round(10.0 * time - 0.5)])
+        return tick_at(plan, time)
+
+    plan, steps = walked(command, tick, 50.0)
+    assert plan.schedule.at(49.0).kind == PhaseKind.STANDING
+    forward = [step for step in steps if step.yaw == 0.0]
+    assert len(forward) >= 8
+    assert forward[-1].x == pytest.approx(forward[-2].x)  # the feet are closed
+    assert steps[-1].yaw == pytest.approx(steps[-2].yaw)
+    assert steps[-1].yaw > 1.0
+
+
+def test_a_stop_in_a_plan_of_steps_ends_it_at_the_next_touchdown(tick_at):
+    command = VelocityCommand(None, LEGS)
+
+    def tick(plan, time):
+        if 5.0 < time < 5.1:
+            command.set_velocity(STOP)
+        return tick_at(plan, time)
+
+    plan, steps = walked(command, tick, 30.0, count=20)
+    assert plan.schedule.at(25.0).kind == PhaseKind.STANDING
+    assert len(steps) < 8
+    assert steps[-1].x == pytest.approx(steps[-2].x)

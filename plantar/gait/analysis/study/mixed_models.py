@@ -13,7 +13,7 @@ from plantar.gait.analysis.measures import COMPARED, in_percent, raw_name
 from plantar.gait.analysis.study.measured_table import Cell, cells_of
 from plantar.gait.analysis.study.one_recording import RecordingResult
 
-FEWEST_PEOPLE = 5
+FEWEST_PEOPLE = 5  # of fewer the spread between people is hardly known
 _FEWEST_STEPS = 20
 
 

@@ -22,7 +22,7 @@ from plantar.gait.analysis.study.measured_table import Cell, feet_of
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import student_quantile
 
-FEWEST_IN_GROUP = 5
+FEWEST_IN_GROUP = 5  # of fewer the spread of a group is hardly known
 ENOUGH_IN_GROUP = 19  # 1 / (19 + 1) is the first probability of 0.05 or less
 
 

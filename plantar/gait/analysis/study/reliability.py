@@ -11,7 +11,7 @@ from plantar.gait.analysis.study.measured_table import Foot, cells_of, feet_of, 
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import student_quantile
 
-FEWEST_PEOPLE = 3
+FEWEST_PEOPLE = 3  # two leave one degree of freedom between people, and intervals without end
 _TRIAL = ("trial", "session", "repetition", "visit")
 """Columns that number a participant's trials; else recordings count in their order."""
 

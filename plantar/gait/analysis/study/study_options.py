@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from plantar.errors import InputError
 
-MOST_JOBS = 256
+MOST_JOBS = 256  # beyond any one machine: a slip of the keyboard
 
 
 @dataclass(frozen=True)

@@ -136,17 +136,17 @@ class BringUp:
             return self._last
         self._ticks += 1
         self._last = command
-        self._advance(time + self._period)
+        self._advance()
         return command
 
-    def _advance(self, time: float) -> None:
-        """Judge at the end of a stage, at a `time` in s."""
-        before = time - self._period
-        if before < STOOD <= time:
+    def _advance(self) -> None:
+        """Judge at the end of a stage."""
+        # By ticks: a time that is summed up may pass an end by less than what it is rounded to.
+        if self._ticks == round(STOOD / self._period):
             self.stage = "leans"
-        elif before < LEANED <= time:
+        elif self._ticks == round(LEANED / self._period):
             self._judge_leans()
-        elif before < UNLOADED <= time:
+        elif self._ticks == round(UNLOADED / self._period):
             self._judge_shifts()
 
     def _judge_leans(self) -> None:

@@ -93,7 +93,8 @@ class BringUpMotion:
             com=np.array([*com, self._stand.com[2]]),
             rotation_torso=self._stand.rotation_torso @ rotation_from_vector(turn),
             feet=feet,
-            zmp_desired=reference.vrp.copy(),
+            reference=reference,
+            zmp_desired=reference.vrp,  # the plan's own: nothing is balanced yet, which motors go by
         )
         axes = np.vstack([self._forward, self._left])
         return command, axes @ moved, turn
