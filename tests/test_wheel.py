@@ -138,7 +138,7 @@ def test_the_wheel_holds_code_and_data(wheel):
     wanted = {
         p.as_posix()
         for p in tracked()
-        if len(p.parts) > 1 and (p.suffix in {".py", ".pxd", *data} or p.name == "py.typed")
+        if len(p.parts) > 1 and (p.suffix in {".py", ".pxd", *data} or "small_demo" in p.parts)
     }
     stamp = {"plantar/kernels/compiled.stamp"} if kernels_that_compile() else set()
     assert names - extensions_in(wheel) == wanted | stamp

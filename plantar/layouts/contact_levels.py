@@ -36,7 +36,7 @@ def contact_levels(noise: float, cells: int) -> ContactLevels:
 
     Example:
         >>> [round(level, 1) for level in contact_levels(1.0, 42)]
-        [4.7, 34.1]
+        [4.7, 36.4]
     """
     if not (noise > 0.0 and cells > 0):
         return ContactLevels(0.0, 0.0)

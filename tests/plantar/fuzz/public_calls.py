@@ -382,6 +382,7 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
         _call(partial(force.center_of_pressure, sole, threshold=0.0), force=one),
         _call(partial(force.ground_reaction_wrench, sole, threshold=0.0), force=frames),
         _call(partial(activation.active_taxels, threshold=4.0), force=free),
+        _call(partial(activation.active_of, sole), force=free),
         _call(partial(activation.hysteresis, high=8.0, low=4.0), values=free),
         Call(
             "activation.TaxelActivation.update",
