@@ -35,14 +35,20 @@ cdef class PatchLoad:
     @cython.locals(inside=bint, at=double)
     cdef bint _has(self, double x, double y, double z) noexcept
     @cython.locals(
-        rows="double[:, ::1]", ux=double, uy=double, uz=double, vx=double, vy=double, vz=double, length=double,
-        square=double, total=double, cu=double, cv=double, least=double, away=double, facing=double, w=double,
-        spread=double, scale=double, found=bint, a=double, b=double, c=double, shared=double, part=double,
-        nearest=Py_ssize_t, count=Py_ssize_t
+        rows="double[:, ::1]", cu=double, cv=double, scale=double, found=bint, a=double, b=double, c=double,
+        shared=double, part=double, count=Py_ssize_t
     )
     cdef void _share(
         self, double nx, double ny, double nz, double fx, double fy, double fz, double depth
     ) noexcept
+    @cython.locals(
+        ux=double, uy=double, uz=double, vx=double, vy=double, vz=double, length=double, square=double, away=double,
+        facing=double, count=Py_ssize_t
+    )
+    cdef Py_ssize_t _gather(self, double nx, double ny, double nz) noexcept
+    @cython.locals(least=double, away=double, nearest=Py_ssize_t, facing=bint, faces=bint)
+    cdef Py_ssize_t _nearest(self, double nx, double ny, double nz) noexcept
+    cdef double _facing(self, Py_ssize_t i, double nx, double ny, double nz) noexcept
     cdef void _add(self, Py_ssize_t i, double share, double fx, double fy, double fz, double depth) noexcept
 
 @cython.locals(left=bint, right=bint, cross=double, ahead=double)

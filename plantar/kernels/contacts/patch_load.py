@@ -260,83 +260,11 @@ class PatchLoad:
     def _share(self, nx, ny, nz, fx, fy, fz, depth):
         """Add a contact's force to cells about `place`."""
         rows = self.rows
-        x = self.place[0]
-        y = self.place[1]
-        z = self.place[2]
-        # Two directions across the normal.
-        if abs(nx) < 0.6:
-            ux = 0.0
-            uy = nz
-            uz = -ny
-        else:
-            ux = -nz
-            uy = 0.0
-            uz = nx
-        length = math.sqrt(ux * ux + uy * uy + uz * uz)
-        ux /= length
-        uy /= length
-        uz /= length
-        vx = ny * uz - nz * uy
-        vy = nz * ux - nx * uz
-        vz = nx * uy - ny * ux
-        square = self.radius * self.radius
-        count = 0
-        total = 0.0
-        cu = 0.0
-        cv = 0.0
-        nearest = 0
-        least = 1e300
-        for i in range(self.areas.shape[0]):
-            dx = self.positions[i, 0] - x
-            dy = self.positions[i, 1] - y
-            dz = self.positions[i, 2] - z
-            away = dx * dx + dy * dy + dz * dz
-            if away >= square and away >= least:
-                continue
-            facing = -(self.normals[i, 0] * nx + self.normals[i, 1] * ny + self.normals[i, 2] * nz)
-            if facing <= _LEVEL:
-                continue
-            if away < least:
-                least = away
-                nearest = i
-            if away < square:
-                w = self.areas[i] * facing * (1.0 - away / square)
-                u = ux * dx + uy * dy + uz * dz
-                v = vx * dx + vy * dy + vz * dz
-                rows[count, 0] = w
-                rows[count, 1] = u
-                rows[count, 2] = v
-                self.cells[count] = i
-                total += w
-                cu += w * u
-                cv += w * v
-                count += 1
+        count = self._gather(nx, ny, nz)
         if count == 0:
-            if least > 1e299:  # none faces it: the nearest of all
-                for i in range(self.areas.shape[0]):
-                    dx = self.positions[i, 0] - x
-                    dy = self.positions[i, 1] - y
-                    dz = self.positions[i, 2] - z
-                    away = dx * dx + dy * dy + dz * dz
-                    if away < least:
-                        least = away
-                        nearest = i
-            self._add(nearest, 1.0, fx, fy, fz, depth)
+            self._add(self._nearest(nx, ny, nz), 1.0, fx, fy, fz, depth)
             return
-        cu /= total
-        cv /= total
-        spread = 0.0
-        for i in range(count):
-            u = rows[i, 1] - cu
-            v = rows[i, 2] - cv
-            spread += rows[i, 0] * (u * u + v * v)
-        scale = math.sqrt(spread / total)
-        if scale < 1e-6:
-            scale = 1e-6
-        for i in range(count):
-            rows[i, 0] /= total
-            rows[i, 1] = (rows[i, 1] - cu) / scale
-            rows[i, 2] = (rows[i, 2] - cv) / scale
+        cu, cv, scale = pressed_patch._centred(rows, count, 1e-6)
         found = False
         a = 1.0
         b = 0.0
@@ -356,6 +284,63 @@ class PatchLoad:
         for i in range(count):
             if rows[i, 0] > 0.0:
                 self._add(self.cells[i], rows[i, 0] / shared, fx, fy, fz, depth)
+
+    def _gather(self, nx, ny, nz):
+        """Put weight and place across the normal of each cell that reaches `place` into `rows`; their number."""
+        # Two directions across the normal.
+        if abs(nx) < 0.6:
+            ux = 0.0
+            uy = nz
+            uz = -ny
+        else:
+            ux = -nz
+            uy = 0.0
+            uz = nx
+        length = math.sqrt(ux * ux + uy * uy + uz * uz)
+        ux /= length
+        uy /= length
+        uz /= length
+        vx = ny * uz - nz * uy
+        vy = nz * ux - nx * uz
+        vz = nx * uy - ny * ux
+        square = self.radius * self.radius
+        count = 0
+        for i in range(self.areas.shape[0]):
+            dx = self.positions[i, 0] - self.place[0]
+            dy = self.positions[i, 1] - self.place[1]
+            dz = self.positions[i, 2] - self.place[2]
+            away = dx * dx + dy * dy + dz * dz
+            if away >= square:
+                continue
+            facing = self._facing(i, nx, ny, nz)
+            if facing > _LEVEL:
+                self.rows[count, 0] = self.areas[i] * facing * (1.0 - away / square)
+                self.rows[count, 1] = ux * dx + uy * dy + uz * dz
+                self.rows[count, 2] = vx * dx + vy * dy + vz * dz
+                self.cells[count] = i
+                count += 1
+        return count
+
+    def _nearest(self, nx, ny, nz):
+        """The cell nearest `place` of those that face the normal; the nearest of all where none does."""
+        nearest = 0
+        least = 1e300
+        faces = False
+        for i in range(self.areas.shape[0]):
+            dx = self.positions[i, 0] - self.place[0]
+            dy = self.positions[i, 1] - self.place[1]
+            dz = self.positions[i, 2] - self.place[2]
+            away = dx * dx + dy * dy + dz * dz
+            facing = self._facing(i, nx, ny, nz) > _LEVEL
+            if (facing and not faces) or (facing == faces and away < least):
+                faces = facing
+                least = away
+                nearest = i
+        return nearest
+
+    def _facing(self, i, nx, ny, nz):
+        """Cosine of the angle between a cell's outward axis and a contact's normal."""
+        return -(self.normals[i, 0] * nx + self.normals[i, 1] * ny + self.normals[i, 2] * nz)
 
     def _add(self, i, share, fx, fy, fz, depth):
         self._vectors[i, 0] += share * fx

@@ -1,4 +1,5 @@
 cimport cython
+from libc cimport math
 from ..geometry cimport clean, convex
 
 @cython.locals(total=double)
@@ -19,6 +20,9 @@ cdef (double, double, double, double) _solved(
 ) noexcept
 
 cdef double _EXACT
+
+@cython.locals(total=double, cx=double, cy=double, spread=double, scale=double)
+cdef (double, double, double) _centred(double[:, ::1] rows, Py_ssize_t cells, double least) noexcept
 
 @cython.locals(
     a=double, b=double, c=double, step_a=double, step_b=double, step_c=double, slope=double, value=double, rate=double,

@@ -1,5 +1,7 @@
 """Load on a patch of an elastic sole, spanned by contact points."""
 
+import math
+
 import numpy as np
 
 from ..geometry import clean, convex
@@ -96,6 +98,34 @@ def _solved(m00, m01, m02, m11, m12, m22, x, y, z):
     b = (i01 * x + i11 * y + i12 * z) / determinant
     c = (i02 * x + i12 * y + i22 * z) / determinant
     return determinant, a, b, c
+
+
+def _centred(rows, cells, least):
+    """Bring rows (at least cells, 3) of weight and place to weights in sum 1, and to places about their weighted centre
+    in shares of their spread, which is `least` or more; returns centre x, y and spread.
+    """
+    total = 0.0
+    cx = 0.0
+    cy = 0.0
+    for i in range(cells):
+        total += rows[i, 0]
+        cx += rows[i, 0] * rows[i, 1]
+        cy += rows[i, 0] * rows[i, 2]
+    cx /= total
+    cy /= total
+    spread = 0.0
+    for i in range(cells):
+        p = rows[i, 1] - cx
+        q = rows[i, 2] - cy
+        spread += rows[i, 0] * (p * p + q * q)
+    scale = math.sqrt(spread / total)
+    if scale < least:
+        scale = least
+    for i in range(cells):
+        rows[i, 0] /= total
+        rows[i, 1] = (rows[i, 1] - cx) / scale
+        rows[i, 2] = (rows[i, 2] - cy) / scale
+    return cx, cy, scale
 
 
 def _tilted(rows, cells, x, y):

@@ -32,7 +32,7 @@ cdef class TaxelLoad:
     cdef void _press_deep(self, Py_ssize_t size) noexcept
     cdef Py_ssize_t _hull_of(self, Py_ssize_t size) noexcept
     @cython.locals(
-        total=double, cx=double, cy=double, spread=double, scale=double, found=bint, a=double, b=double, c=double,
+        cx=double, cy=double, scale=double, found=bint, a=double, b=double, c=double,
         pressure=double
     )
     cdef bint _tilt(self, double[::1] weights, double force, double x, double y) noexcept

@@ -218,39 +218,17 @@ class TaxelLoad:
         """
         cells = 0
         rows = self.rows
-        total = 0.0
-        cx = 0.0
-        cy = 0.0
         if self._is_beyond(x, y):
             return False
         for i in range(self.areas.shape[0]):
             if weights[i] > 0.0:
-                w = weights[i]
-                p = self.positions[i, 0]
-                q = self.positions[i, 1]
-                rows[cells, 0] = w
-                rows[cells, 1] = p
-                rows[cells, 2] = q
-                total += w
-                cx += w * p
-                cy += w * q
+                rows[cells, 0] = weights[i]
+                rows[cells, 1] = self.positions[i, 0]
+                rows[cells, 2] = self.positions[i, 1]
                 cells += 1
         if cells == 0:
             return False
-        cx /= total
-        cy /= total
-        spread = 0.0
-        for i in range(cells):
-            p = rows[i, 1] - cx
-            q = rows[i, 2] - cy
-            spread += rows[i, 0] * (p * p + q * q)
-        scale = math.sqrt(spread / total)
-        if scale < 1e-4:
-            scale = 1e-4
-        for i in range(cells):
-            rows[i, 0] /= total
-            rows[i, 1] = (rows[i, 1] - cx) / scale
-            rows[i, 2] = (rows[i, 2] - cy) / scale
+        cx, cy, scale = pressed_patch._centred(rows, cells, 1e-4)
         at_x = (x - cx) / scale
         at_y = (y - cy) / scale
         found, a, b, c = pressed_patch._tilted(rows, cells, at_x, at_y)
