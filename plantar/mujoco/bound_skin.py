@@ -98,7 +98,9 @@ class BoundSkin:
         self._nearest = _least_gaps(model, body).tolist()
         self.make_load = make_load
         axes = layout.rotations[:, :, 2]
-        self.rings = list(rings) or [layout.vertices[list(c)] for c in layout.corners]  # type: ignore[union-attr]
+        self.rings = list(rings)
+        if isinstance(layout, SoleLayout) and not rings:
+            self.rings = [layout.vertices[list(c)] for c in layout.corners]
         flat = 2 if make_load is None else 3
         widths = [
             float(np.linalg.norm(ring[:, :flat] - place[:flat], axis=1).max())

@@ -4,7 +4,6 @@ import math
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import mujoco
@@ -18,16 +17,13 @@ from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.source_pose import SourcePose
-from plantar.layouts.tiling import hex_layout
-from plantar.mujoco.bound_skin import BoundSkin, LoadMaker
+from plantar.mujoco.bound_skin import BoundSkin
 from plantar.mujoco.contacts import REACH
 from plantar.mujoco.named_id import named_id
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape, unit_vector
-from plantar.mujoco.wrapped_skin import WrappedSkin, body_surfaces, wrapped_skin
+from plantar.mujoco.wrapped_skin import WrappedSkin, body_surfaces, fitted_cell_area, flat_layout, wrapped_skin
 
-_CELL_AREA = 691e-6  # m^2, of the papers' soles
-_CELLS = 30  # at least so many of a sole that is fitted
 _ACTIVE = 0.073  # of its robot's weight over its taxels: 0.15 kg of the papers' 86 kg over 42
 _RIM = 0.005  # m: a shoe's sole may be so much wider than the shapes that collide
 _OUTSIDE = 0.1  # of a layout's cells: more than this beside the body's sole is a wrong layout or frame
@@ -219,8 +215,8 @@ class Skin:
     def _frame(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Origin (3,) and rotation (3, 3) of the skin's frame in the body's."""
         if self.wraps:
-            feel = self._bind_patch(model)
-            return feel.position_in_body, feel.rotation_to_body
+            patch = self._wrapped(model, self._touching(model))
+            return patch.position, patch.rotation
         _, shape = self._place(model)
         return shape.position, shape.rotation
 
@@ -228,17 +224,15 @@ class Skin:
         geoms = self._touching(model)
         body = named_id(model, "body", self.body)
         patch = self._wrapped(model, geoms)
-        make: LoadMaker = patch.load
         return BoundSkin(
             model, patch.layout, body, geoms, patch.position, patch.rotation,
-            reach=self.reach, proximity=self.proximity, make_load=make, rings=patch.rings,
+            reach=self.reach, proximity=self.proximity, make_load=patch.load, rings=patch.rings,
         )  # fmt: skip
 
     def _wrapped(self, model: Any, geoms: list[int]) -> WrappedSkin:
         body = named_id(model, "body", self.body)
-        weight = GRAVITY * float(model.body_subtreemass[model.body_rootid[body]])
         return wrapped_skin(
-            model, body, geoms, side=_side_in(self.body), cell_area=self.cell_area, least_level=_ACTIVE * weight,
+            model, body, geoms, side=_side_in(self.body), cell_area=self.cell_area, least_level=_active(model, body),
             outward=self.outward, within=self.within, around=self.around, region=self.region, polygon=self.polygon,
             forward=self.forward,
         )  # fmt: skip
@@ -315,25 +309,11 @@ class Skin:
     def _fitted(self, model: Any, body: int, shape: SoleShape) -> SoleLayout:
         import shapely
 
-        area = (
-            self.cell_area
-            if self.cell_area is not None
-            else min(_CELL_AREA, shapely.Polygon(shape.outline).area / _CELLS)
-        )
-        # The right foot's sole is the left one's, mirrored: mirrored bodies have mirrored cells. The outline is taken
-        # to a nanometre, so that rounding decides nowhere which cells are in.
+        area = self.cell_area
+        if area is None:
+            area = fitted_cell_area(shapely.Polygon(shape.outline).area)
         side = _side_in(self.body) or shape.side
-        flip = np.array([1.0, -1.0 if side == "right" else 1.0])
-        outline = np.round(shape.outline * flip, 9)
-        middle = shapely.Polygon(outline).centroid
-        layout = hex_layout(
-            outline, name=self.body, side="left", cell_area=area, origin=(round(middle.x, 9), round(middle.y, 9))
-        )
-        if side == "right":
-            layout = mirrored(layout)
-        weight = GRAVITY * float(model.body_subtreemass[model.body_rootid[body]])
-        level = min(layout.force_threshold, _ACTIVE * weight / len(layout))
-        return replace(layout, thresholds={**layout.thresholds, "force": level})
+        return flat_layout(self.body, side, shape.outline, area, _active(model, body))
 
     def _check(self, layout: SoleLayout, shape: SoleShape) -> None:
         import shapely
@@ -395,6 +375,11 @@ def _cells(layout: SoleLayout) -> Any:
 def _fit(cells: Any, sole: Any) -> float:
     """Intersection of cells and sole over their union."""
     return float(cells.intersection(sole).area / cells.union(sole).area)
+
+
+def _active(model: Any, body: int) -> float:
+    """Force in N of all taxels of a body's skin from which they are active."""
+    return _ACTIVE * GRAVITY * float(model.body_subtreemass[model.body_rootid[body]])
 
 
 def _side_in(name: str) -> Side | None:

@@ -80,15 +80,20 @@ def sole_shape(
         if forward is not None:
             raise RobotError("the sole faces the way that is given as forward; give forward=(x, y, z) along the sole")
         ahead = turn.T @ np.array([0.0, 0.0, 1.0])
-    x = ahead - (ahead @ down) * down
-    x /= np.linalg.norm(x)
-    rotation = np.column_stack([x, np.cross(-down, x), -down])
+    rotation = axes_facing(down, ahead)
     lowest = max(float((p.points @ down).max()) for p in parts)
     position = lowest * down
     outline = _outline(parts, position, rotation)
     root = int(model.body_rootid[body])
     aside = float((turn @ rotation[:, 1]) @ (place - data.xpos[root if root != body else 0]))
     return SoleShape(position, rotation, outline, "left" if aside > -1e-9 else "right", is_flat)
+
+
+def axes_facing(out: NDArray[np.float64], ahead: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation (3, 3) of a skin's frame that faces `out` (3,): z against it, x as near `ahead` (3,) as can be."""
+    x = ahead - (ahead @ out) * out
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(-out, x), -out])
 
 
 def _ahead(turn: NDArray[np.float64], down: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -168,10 +173,7 @@ def _face(parts: list[_Part], down: NDArray[np.float64]) -> tuple[NDArray[np.flo
         normals = hull.equations[:, :3]
         faces = []
         for normal in normals[normals @ start > _TILT]:
-            same = normals @ normal > 1.0 - 1e-5
-            a, b, c = (hull.points[hull.simplices[same, k]] for k in range(3))
-            area = 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
-            faces.append((area, tuple(normal)))
+            faces.append((_face_area(hull, normal), tuple(normal)))
         if not faces:
             return start, False
         area, normal = max(faces)
@@ -203,15 +205,19 @@ def _refuse_edge(parts: list[_Part], down: NDArray[np.float64], name: str) -> No
     low = heights > heights.max() - 1e-3 * float(np.ptp(hull.points, axis=0).max())
     normals = hull.equations[:, :3]
     for normal in normals[low[hull.simplices].any(axis=1) & (normals @ down > _LEANT)]:
-        same = normals @ normal > 1.0 - 1e-5
-        a, b, c = (hull.points[hull.simplices[same, k]] for k in range(3))
-        area = 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
-        if area > _LEAST_FACE * _area_across(hull.points, normal):
+        if _face_area(hull, normal) > _LEAST_FACE * _area_across(hull.points, normal):
             angle = math.degrees(math.acos(min(1.0, float(normal @ down))))
             raise RobotError(
                 f"body '{name}' is on an edge: its nearest face is turned by {angle:.0f} deg from where it looks; "
                 "allowed: up to 35 deg; give outward=(x, y, z), or a keyframe in which it stands"
             )
+
+
+def _face_area(hull: Any, normal: NDArray[np.float64]) -> float:
+    """Area in m^2 of a convex hull's triangles that have a normal (3,)."""
+    same = hull.equations[:, :3] @ normal > 1.0 - 1e-5
+    a, b, c = (hull.points[hull.simplices[same, k]] for k in range(3))
+    return 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
 
 
 def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> float:

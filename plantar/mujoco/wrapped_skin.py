@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import mujoco
@@ -15,12 +16,12 @@ from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.layouts.layout import DEFAULT_THRESHOLDS, SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
 from plantar.mujoco.geom_surface import GeomSurface
-from plantar.mujoco.sole_shape import unit_vector
+from plantar.mujoco.sole_shape import axes_facing, unit_vector
 from plantar.mujoco.surface_patch import Region, Samples, SurfaceCells, refuse_strip, sampled, spread_cells, width_of
 from plantar.sensing.link_skin import SkinPatch
 
 _CELL_AREA = 691e-6  # m^2, of the papers' soles
-_CELLS = 30  # at least so many of a small patch
+_CELLS = 30  # at least so many of a small skin that is fitted
 _COARSE = 40  # samples along the body's largest extent, from which the patch's area is known to some per cent
 _LOOKS = 0.1  # cosine of the angle to the frame's z from which a cell counts as looking the patch's way
 _PLANE = 1e-6  # m, or of a normal's components: float32 meshes
@@ -95,7 +96,7 @@ def wrapped_skin(
     except RobotError:  # a small region may lie between the samples
         coarse = _chosen(surfaces, max(0.1 * first, _FINEST), is_right, chosen, where)
     total = float(coarse.areas.sum())
-    area = cell_area if cell_area is not None else min(_CELL_AREA, total / _CELLS)
+    area = fitted_cell_area(total) if cell_area is None else cell_area
     pitch = max(width_of(area) / 8.0, _FINEST)
     pitch = max(pitch, math.sqrt(6.0 * float(np.prod(np.sort(high - low)[1:])) / _MOST_SAMPLES))
     samples = _chosen(surfaces, pitch, is_right, chosen, where)
@@ -110,7 +111,8 @@ def wrapped_skin(
     else:
         outline, height = flat
         position = height * np.asarray(out)
-        layout = _flat_layout(name, own_side, outline, area, least_level, where)
+        refuse_strip(*_long_and_thin(outline), width_of(area), where)
+        layout = flat_layout(name, own_side, outline, area, least_level)
         rings = [
             np.column_stack([layout.cell_polygon(i), np.zeros(len(layout.corners[i]))]) for i in range(len(layout))
         ]
@@ -128,9 +130,7 @@ def _axes(out: NDArray[np.float64] | None, forward: ArrayLike | None) -> NDArray
         if forward is not None:
             raise RobotError("the patch faces the way that is given as forward; give forward=(x, y, z) along it")
         ahead = np.array([0.0, 0.0, 1.0])
-    x = ahead - (ahead @ out) * out
-    x /= np.linalg.norm(x)
-    return np.column_stack([x, np.cross(-out, x), -out])
+    return axes_facing(out, ahead)
 
 
 def _box(region: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -223,27 +223,35 @@ def _clipped(ring: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[
     return ring
 
 
-def _flat_layout(
-    name: str, side: Side, outline: NDArray[np.float64], area: float, least_level: float, where: str
-) -> SoleLayout:
+def flat_layout(name: str, side: Side, outline: NDArray[np.float64], area: float, least_level: float) -> SoleLayout:
+    """Cells of an `area` in m^2 in a flat outline (k, 2); `least_level`: force in N of all from which they are active.
+
+    A right one is the left one, mirrored: mirrored bodies have mirrored cells. The outline is taken to a nanometre, so
+    that rounding decides nowhere which cells are in.
+    """
     import shapely
 
-    shape = shapely.Polygon(outline)
-    box = shapely.get_coordinates(shape.minimum_rotated_rectangle)
-    thin, long = sorted(np.hypot(*(box[1:3] - box[:2]).T).tolist())
-    refuse_strip(long, thin, width_of(area), where)
-    flip = np.array([1.0, -1.0 if side == "right" else 1.0])
-    shown = np.round(outline * flip, 9)
+    shown = np.round(outline * np.array([1.0, -1.0 if side == "right" else 1.0]), 9)
     middle = shapely.Polygon(shown).centroid
     layout = hex_layout(shown, name=name, side="left", cell_area=area, origin=(round(middle.x, 9), round(middle.y, 9)))
-    if side == "right":
-        layout = mirrored(layout)
-    return _with_level(layout, least_level)
+    return _with_level(mirrored(layout) if side == "right" else layout, least_level)
+
+
+def fitted_cell_area(whole: float) -> float:
+    """Area in m^2 of a cell where none is stated, on a skin of an area in m^2."""
+    return min(_CELL_AREA, whole / _CELLS)
+
+
+def _long_and_thin(outline: NDArray[np.float64]) -> tuple[float, float]:
+    """Length and width in m of the least rectangle about an outline (k, 2)."""
+    import shapely
+
+    box = shapely.get_coordinates(shapely.Polygon(outline).minimum_rotated_rectangle)
+    thin, long = sorted(np.hypot(*(box[1:3] - box[:2]).T).tolist())
+    return long, thin
 
 
 def _with_level(layout: SoleLayout, least_level: float) -> SoleLayout:
-    from dataclasses import replace
-
     level = min(layout.force_threshold, least_level / len(layout))
     return replace(layout, thresholds={**layout.thresholds, "force": level})
 
@@ -312,7 +320,7 @@ def _kernel(
     frames = np.array([[*((s.position - position) @ rotation), *(rotation.T @ s.rotation).ravel()] for s in surfaces])
     planes = [s.planes if s.kind == mujoco.mjtGeom.mjGEOM_MESH else np.zeros((0, 4)) for s in surfaces]
     starts = np.cumsum([0, *(len(p) for p in planes)]).astype(np.int32)
-    limits = np.zeros(21)
+    limits = np.zeros(14)
     limits[3] = -2.0
     limits[7] = 2.0
     if region.outward is not None:
