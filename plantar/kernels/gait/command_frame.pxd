@@ -12,7 +12,9 @@ cdef class CommandFrame:
     cpdef CommandFrame now(self)
     @cython.locals(dx=double, dy=double, c=double, s=double)
     cpdef object to_command(self, point)
-    @cython.locals(dx=double, dy=double, c=double, s=double)
+    @cython.locals(x=double, y=double, z=double)
     cpdef object to_world(self, point)
     @cython.locals(dx=double, dy=double, c=double, s=double, x=double, y=double, z=double)
     cpdef object aligned(self, point, com)
+    @cython.locals(dx=double, dy=double, c=double, s=double)
+    cdef (double, double, double) _in_world(self, point) except *

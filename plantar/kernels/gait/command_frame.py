@@ -81,28 +81,29 @@ class CommandFrame:
 
     def to_world(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
         """A command-frame point (3,) in the world, in m."""
-        p = memory.values(point)
-        dx = p[0] - self.anchor_x
-        dy = p[1] - self.anchor_y
-        c = math.cos(self.turn)
-        s = math.sin(self.turn)
-        return vectors.vector(
-            self.anchor_x + self.x + (c * dx - s * dy),
-            self.anchor_y + self.y + (s * dx + c * dy),
-            self.anchor_z + self.z + (p[2] - self.anchor_z),
-        )
+        x, y, z = self._in_world(point)
+        return vectors.vector(x, y, z)
 
     def aligned(self, point: NDArray[np.float64], com: NDArray[np.float64]) -> NDArray[np.float64]:
         """A command-frame point (3,) in the world, turned back about the estimated `com` (3,) to the commanded heading,
         in m.
         """
-        p = memory.values(point)
         center = memory.values(com)
+        x, y, z = self._in_world(point)
+        dx = x - center[0]
+        dy = y - center[1]
+        c = math.cos(self.turn)
+        s = math.sin(self.turn)
+        return vectors.vector(center[0] + c * dx + s * dy, center[1] - s * dx + c * dy, z)
+
+    def _in_world(self, point):
+        p = memory.values(point)
         dx = p[0] - self.anchor_x
         dy = p[1] - self.anchor_y
         c = math.cos(self.turn)
         s = math.sin(self.turn)
-        x = self.anchor_x + self.x + (c * dx - s * dy) - center[0]
-        y = self.anchor_y + self.y + (s * dx + c * dy) - center[1]
-        z = self.anchor_z + self.z + (p[2] - self.anchor_z)
-        return vectors.vector(center[0] + c * x + s * y, center[1] - s * x + c * y, z)
+        return (
+            self.anchor_x + self.x + (c * dx - s * dy),
+            self.anchor_y + self.y + (s * dx + c * dy),
+            self.anchor_z + self.z + (p[2] - self.anchor_z),
+        )

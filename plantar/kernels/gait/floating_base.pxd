@@ -43,11 +43,13 @@ cdef class FloatingBase:
     cpdef void carry(self, Py_ssize_t side, double load, bint pressed, double x, double y) noexcept
     @cython.locals(load=double)
     cpdef double load(self, Py_ssize_t side, double force, double tare, cop) except? -1.0
-    @cython.locals(mu=double, x=double, y=double)
+    @cython.locals(x=double, y=double)
     cpdef step(self, gyro, accelerometer, planned, swing)
+    @cython.locals(mu=double)
+    cdef double _of_base(self, double planned, double swing) noexcept
     @cython.locals(error=double, total=double, weight=double, z=double, other=double, rise=double)
     cdef void _anchor(self) noexcept
-    @cython.locals(mu=double, x=double, y=double, square=double, turn="double[:, ::1]")
+    @cython.locals(x=double, y=double, square=double, turn="double[:, ::1]")
     cpdef int settle(self, accelerometer, planned, swing, felt) except -1
     cpdef follow(
         self, double gyro_x, double gyro_y, double gyro_z, double specific_x, double specific_y, double specific_z,

@@ -147,14 +147,11 @@ class FloatingBase:
         load in N: ground never pulls; what the tare leaves below zero is noise.
         """
         load = max(0.0, force - tare)
-        self.loads[side] = load
-        self.pressed[side] = cop is not None
-        self.cops[side, 0] = 0.0
-        self.cops[side, 1] = 0.0
-        if cop is not None:
+        if cop is None:
+            self.carry(side, load, False, 0.0, 0.0)
+        else:
             point = memory.values(cop)
-            self.cops[side, 0] = point[0]
-            self.cops[side, 1] = point[1]
+            self.carry(side, load, True, point[0], point[1])
         return load
 
     def step(self, gyro, accelerometer, planned, swing):
@@ -167,12 +164,16 @@ class FloatingBase:
         force = memory.values(accelerometer)
         com = memory.values(planned)
         foot = memory.values(swing)
-        mu = self.leg_share
-        x = (com[0] - mu * foot[0]) / (1.0 - 2.0 * mu)
-        y = (com[1] - mu * foot[1]) / (1.0 - 2.0 * mu)
+        x = self._of_base(com[0], foot[0])
+        y = self._of_base(com[1], foot[1])
         zmp = self.follow(rate[0], rate[1], rate[2], force[0], force[1], force[2], x, y)
         self._anchor()
         return zmp
+
+    def _of_base(self, planned, swing):
+        """The base's acceleration of the CoM's, `planned`, and the swinging foot's, along one axis (`LegInertia`)."""
+        mu = self.leg_share
+        return (planned - mu * swing) / (1.0 - 2.0 * mu)
 
     def _anchor(self):
         """Return the base to its feet's landing height; else step errors (tilt times length) add up."""
@@ -204,7 +205,6 @@ class FloatingBase:
         force = memory.values(accelerometer)
         com = memory.values(planned)
         foot = memory.values(swing)
-        mu = self.leg_share
         x = self.leg_turning * foot[0]
         y = self.leg_turning * foot[1]
         push = self.push
@@ -216,9 +216,9 @@ class FloatingBase:
                 square = self.omega * self.omega
                 push.update(
                     turn[0, 0] * force[0] + turn[0, 1] * force[1] + turn[0, 2] * force[2]
-                    - ((com[0] - mu * foot[0]) / (1.0 - 2.0 * mu) - com[0]),
+                    - (self._of_base(com[0], foot[0]) - com[0]),
                     turn[1, 0] * force[0] + turn[1, 1] * force[1] + turn[1, 2] * force[2]
-                    - ((com[1] - mu * foot[1]) / (1.0 - 2.0 * mu) - com[1]),
+                    - (self._of_base(com[1], foot[1]) - com[1]),
                     square * (self.com[0] - self.zmp[0]) + x,
                     square * (self.com[1] - self.zmp[1]) + y,
                 )  # fmt: skip
