@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, permutations, product
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -133,19 +134,24 @@ def compare_levels(
     """
     pairs = [_Pair(design, a, b) for a, b in combinations(range(design.levels), 2)]
     clusters = Clusters(places)
-    observed = [pair.t_of(_residuals(values, design)[pair.rows]) for pair in pairs]
+    residuals = _residuals(values, design)
+    observed = [pair.t_of(residuals[pair.rows]) for pair in pairs]
     beyond = [clusters.of(t, pair.threshold) for t, pair in zip(observed, pairs, strict=True)]
-    heavy = any(masses for _, masses in beyond)
-    tops, weights = _largest(values, design, pairs, clusters, heavy, most)
+    family = _permuted(residuals, design, pairs, observed, clusters, any(masses for _, masses in beyond), most)
     out = []
     for pair, t, (labels, masses) in zip(pairs, observed, beyond, strict=True):
-        own = design.of_rows(pair.rows)
         # What is permuted over all levels holds the error where no level differs; what is permuted over these two
         # alone, where others do.
-        same = [_Pair(own, pair.a, pair.b, pair.levels)]
-        p, alone, own_weights = _alone(values[pair.rows], own, same[0], t, clusters, bool(masses), most)
-        family = _shares(tops, np.abs(t))
-        cluster_p = [max(float(_shares(w, np.array([m]))[0]) for w in (weights, own_weights)) for m in masses]
+        alone = family
+        if len(pair.rows) < len(design.level):
+            own = design.of_rows(pair.rows)
+            same = _Pair(own, pair.a, pair.b, pair.levels)
+            rest = _residuals(values[pair.rows], own)
+            alone = _permuted(rest, own, [same], [t], clusters, bool(masses), most)
+        size = np.abs(t)
+        cluster_p = [
+            max(float(_shares(found.heaviest, np.array([mass]))[0]) for found in (family, alone)) for mass in masses
+        ]
         difference, error = pair.effect_of(values[pair.rows])
         out.append(
             Contrast(
@@ -155,12 +161,12 @@ def compare_levels(
                 error,
                 pair.freedom,
                 t,
-                p,
-                np.maximum(family, _shares(alone, np.abs(t))),
-                float(np.sort(tops)[max(0, math.ceil(0.95 * len(tops)) - 1)]),
+                alone.p[0],
+                np.maximum(_shares(family.largest, size), _shares(alone.largest, size)),
+                float(np.sort(family.largest)[max(0, math.ceil(0.95 * len(family.largest)) - 1)]),
                 labels,
                 tuple(cluster_p),
-                len(tops),
+                len(family.largest),
             )
         )
     return out
@@ -261,51 +267,40 @@ def _residuals(values: NDArray[np.float64], design: Design) -> NDArray[np.float6
     return np.where(np.abs(rest).max(axis=0, initial=0.0) <= rounding, 0.0, rest)
 
 
-def _largest(
-    values: NDArray[np.float64],
+class _Permuted(NamedTuple):
+    """Largest |t| and heaviest cluster (n,) over all pairs of each of n permutations; `p`: of each pair the share (k,)
+    of permutations that reach the observed |t|.
+    """
+
+    largest: NDArray[np.float64]
+    heaviest: NDArray[np.float64]
+    p: list[NDArray[np.float64]]
+
+
+def _permuted(
+    residuals: NDArray[np.float64],
     design: Design,
     pairs: Sequence[_Pair],
+    observed: Sequence[NDArray[np.float64]],
     clusters: Clusters,
     heavy: bool,
     most: int,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Largest |t| and heaviest cluster over all pairs of each permutation."""
-    residuals = _residuals(values, design)
+) -> _Permuted:
+    """Permute a design's residuals (r, k); without `heavy` clusters weigh nothing."""
+    reached = [np.zeros(t.shape) for t in observed]
     tops: list[NDArray[np.float64]] = []
     weights: list[float] = []
-    for block in _blocks(design, values.shape[1], most):
+    for block in _blocks(design, residuals.shape[1], most):
         found = [pair.t_of(residuals[block[:, pair.rows]]) for pair in pairs]
-        tops.append(np.max([np.abs(t).max(axis=1, initial=0.0) for t in found], axis=0))
+        sizes = [np.abs(t) for t in found]
+        for count, size, t in zip(reached, sizes, observed, strict=True):
+            count += (size >= np.abs(t) * (1.0 - _ROUNDING)).sum(axis=0)
+        tops.append(np.max([size.max(axis=1, initial=0.0) for size in sizes], axis=0))
         if heavy:
             heaviest = [[clusters.heaviest(one, p.threshold) for one in t] for p, t in zip(pairs, found, strict=True)]
             weights += np.max(heaviest, axis=0).tolist()
     top = np.concatenate(tops)
-    return top, np.array(weights) if heavy else np.zeros(len(top))
-
-
-def _alone(
-    values: NDArray[np.float64],
-    design: Design,
-    pair: _Pair,
-    observed: NDArray[np.float64],
-    clusters: Clusters,
-    heavy: bool,
-    most: int,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Probability of each |t|, largest |t| and heaviest cluster of each permutation of two levels alone."""
-    residuals = _residuals(values, design)
-    each = np.zeros(observed.shape)
-    tops: list[NDArray[np.float64]] = []
-    weights: list[float] = []
-    for block in _blocks(design, values.shape[1], most):
-        t = pair.t_of(residuals[block])
-        size = np.abs(t)
-        each += (size >= np.abs(observed) * (1.0 - _ROUNDING)).sum(axis=0)
-        tops.append(size.max(axis=1, initial=0.0))
-        if heavy:
-            weights += [clusters.heaviest(one, pair.threshold) for one in t]
-    top = np.concatenate(tops)
-    return each / len(top), top, np.array(weights) if heavy else np.zeros(len(top))
+    return _Permuted(top, np.array(weights) if heavy else np.zeros(len(top)), [count / len(top) for count in reached])
 
 
 def _shares(permuted: NDArray[np.float64], observed: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -102,17 +102,22 @@ def cells_of(results: Sequence[RecordingResult], factor: str) -> list[Cell]:
 
 def measure_keys(cells: Sequence[Cell], names: Sequence[str] = COMPARED) -> list[str]:
     """Compared measures of foot and regions that every cell has, each in one unit: percent where all have it."""
+    found = (key_of_all(cells, name) for name in (*names, *region_keys(cells)))
+    return list(dict.fromkeys(key for key in found if key is not None))
+
+
+def region_keys(cells: Sequence[Cell]) -> list[str]:
+    """Compared measures of the regions that any foot of the cells has, in SI."""
     regions = dict.fromkeys(
         key.partition(".")[0] for cell in cells for r, side in cell.feet for key in r.feet[side] if "." in key
     )
-    wanted = [*names, *(f"{region}.{name}" for region in regions for name in REGION_COMPARED)]
-    keys: list[str] = []
-    for name in wanted:
-        forms = (in_percent(name), name, raw_name(name))
-        found = next((k for k in forms if k and all(np.isfinite(c.mean(k)) for c in cells)), None)
-        if found is not None and found not in keys:
-            keys.append(found)
-    return keys
+    return [f"{region}.{name}" for region in regions for name in REGION_COMPARED]
+
+
+def key_of_all(cells: Sequence[Cell], name: str) -> str | None:
+    """A measure's key in the unit that every cell has: in percent, SI or counts; None where there is none."""
+    forms = (in_percent(name), name, raw_name(name))
+    return next((k for k in forms if k and all(np.isfinite(c.mean(k)) for c in cells)), None)
 
 
 def means(cells: Sequence[Cell], keys: Sequence[str]) -> "np.ndarray[tuple[int, int], np.dtype[np.float64]]":

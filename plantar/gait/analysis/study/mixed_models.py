@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.optional_library import optional_library
-from plantar.gait.analysis.measures import COMPARED, in_percent, raw_name
-from plantar.gait.analysis.study.measured_table import Cell, cells_of
+from plantar.gait.analysis.measures import COMPARED
+from plantar.gait.analysis.study.measured_table import Cell, cells_of, key_of_all
 from plantar.gait.analysis.study.one_recording import RecordingResult
+from plantar.gait.analysis.study.statistics import NORMAL_95
 
 FEWEST_PEOPLE = 5  # of fewer the spread between people is hardly known
 _FEWEST_STEPS = 20
@@ -56,7 +57,7 @@ def mixed_effects(results: Sequence[RecordingResult], factor: str, covariates: S
         return []
     out: list[MixedEffect] = []
     for name in COMPARED:
-        key = _key(cells, name)
+        key = key_of_all(cells, name)
         table = [] if key is None else _steps(cells, key, levels, people, covariates)
         if key is None or len(table) < _FEWEST_STEPS:
             continue
@@ -66,7 +67,8 @@ def mixed_effects(results: Sequence[RecordingResult], factor: str, covariates: S
             if i not in fit.levels:
                 continue
             at = fit.levels.index(i)
-            difference, error = fit.differences[at], fit.errors[at]
+            difference = fit.differences[at]
+            error = fit.errors[at]
             out.append(
                 MixedEffect(
                     factor,
@@ -77,19 +79,14 @@ def mixed_effects(results: Sequence[RecordingResult], factor: str, covariates: S
                     len(np.unique(rows[:, 2])),
                     difference,
                     error,
-                    difference - 1.959963984540054 * error,
-                    difference + 1.959963984540054 * error,
+                    difference - NORMAL_95 * error,
+                    difference + NORMAL_95 * error,
                     math.erfc(abs(difference / error) / math.sqrt(2.0)) if error > 0.0 else math.nan,
                     *fit.spreads,
                     fit.note,
                 )
             )
     return out
-
-
-def _key(cells: Sequence[Cell], name: str) -> str | None:
-    forms = (in_percent(name), name, raw_name(name))
-    return next((k for k in forms if k and all(np.isfinite(cell.mean(k)) for cell in cells)), None)
 
 
 def _steps(
@@ -135,13 +132,13 @@ def fit_mixed(
     columns = np.column_stack([np.ones(len(values)), dummies, centred / spread])
     order = np.argsort(person, kind="stable")
     people = np.unique(person)
-    parts, names, labels = [], [], []
+    parts = []
+    names = []
     for who in people:
         own = level[order][person[order] == who]
         cells = np.unique(own)
         parts.append((own[:, None] == cells).astype(float))
         names.append([str(cell) for cell in cells])
-        labels.append(who)
     levels_in_people = VCSpec(["level"], [names], [parts])
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
-from plantar.gait.analysis.measures import COMPARED, REGION_COMPARED, in_percent
+from plantar.gait.analysis.measures import COMPARED, in_percent
 from plantar.gait.analysis.study.compare_conditions import mean_curves, mean_maps
-from plantar.gait.analysis.study.measured_table import Cell, feet_of
+from plantar.gait.analysis.study.measured_table import Cell, feet_of, region_keys
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import student_quantile
 
@@ -210,15 +210,10 @@ def _cells(feet: Sequence[tuple[RecordingResult, Side]], side: Side) -> list[Cel
     return [Cell(who, side, own) for who, own in groups.items()]
 
 
-def _keys(cell: Cell) -> list[str]:
-    regions = dict.fromkeys(key.partition(".")[0] for r, side in cell.feet for key in r.feet[side] if "." in key)
-    return [*COMPARED, *(f"{region}.{name}" for region in regions for name in REGION_COMPARED)]
-
-
 def _measures(mine: Mapping[Side, Cell], cells: Mapping[Side, Sequence[Cell]]) -> dict[Side, dict[str, Standing]]:
     everyone = [cell for side, cell in mine.items() for cell in (cell, *cells[side])]
     chosen: list[tuple[Side, str]] = []
-    for name in dict.fromkeys(key for cell in mine.values() for key in _keys(cell)):
+    for name in (*COMPARED, *region_keys([*mine.values()])):
         percent = in_percent(name)
         key = percent if percent and all(np.isfinite(c.mean(percent)) for c in everyone) else name
         chosen += [

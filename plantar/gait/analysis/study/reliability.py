@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.study.measured_table import Foot, cells_of, feet_of, level_of, measure_keys
 from plantar.gait.analysis.study.one_recording import RecordingResult
-from plantar.gait.analysis.study.statistics import student_quantile
+from plantar.gait.analysis.study.statistics import NORMAL_95, student_quantile
 
 FEWEST_PEOPLE = 3  # two leave one degree of freedom between people, and intervals without end
 _TRIAL = ("trial", "session", "repetition", "visit")
@@ -83,7 +83,8 @@ def reliability_of(values: NDArray[np.float64]) -> Reliability:
     several = people + (trials - error) / n
     icc = (people - error) / single if single > 0.0 else math.nan
     icc_k = (people - error) / several if several > 0.0 else math.nan
-    low = high = math.nan
+    low = math.nan
+    high = math.nan
     if error > 0.0 and icc < 1.0:
         a = k * icc / (n * (1.0 - icc))
         b = 1.0 + k * icc * (n - 1) / (n * (1.0 - icc))
@@ -105,7 +106,7 @@ def reliability_of(values: NDArray[np.float64]) -> Reliability:
         low * k / (1.0 + low * (k - 1)),
         high * k / (1.0 + high * (k - 1)),
         sem,
-        1.959963984540054 * math.sqrt(2.0) * sem,
+        NORMAL_95 * math.sqrt(2.0) * sem,
     )
 
 
@@ -133,7 +134,7 @@ def agreement_of(pairs: Sequence[NDArray[np.float64]]) -> Agreement:
     sd = math.sqrt(variance)
     bias_error = math.sqrt(between / total)
     reach = student_quantile(0.975, n - 1)
-    end_error = math.sqrt(bias_error**2 + 1.959963984540054**2 * sd**2 / (2.0 * (n - 1)))
+    end_error = math.sqrt(bias_error**2 + NORMAL_95**2 * sd**2 / (2.0 * (n - 1)))
     x = np.array([own.mean() for own in pairs])
     spread = float(((x - x.mean()) ** 2).sum())
     slope = float(((x - x.mean()) * means).sum()) / spread if spread > 0.0 else math.nan
@@ -149,9 +150,9 @@ def agreement_of(pairs: Sequence[NDArray[np.float64]]) -> Agreement:
         bias - reach * bias_error,
         bias + reach * bias_error,
         sd,
-        bias - 1.959963984540054 * sd,
+        bias - NORMAL_95 * sd,
         reach * end_error,
-        bias + 1.959963984540054 * sd,
+        bias + NORMAL_95 * sd,
         reach * end_error,
         slope,
         p,

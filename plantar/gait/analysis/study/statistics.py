@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 _SPREAD = 1e-6  # Standard deviation of participants, as a share of their mean, below which it is rounding and no spread
 _CONFIDENCE = 0.95
+NORMAL_95 = 1.959963984540054  # of the standard normal distribution: 95 % of it lies within this of 0
 
 
 @dataclass(frozen=True)
