@@ -19,7 +19,8 @@ from .hostile_files import COMMANDS, DEFECTS_OF_ANY, FAMILIES, Content
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes, devices and memory as on Linux")
 
-MOST_SECONDS, MOST_MEGABYTES = 10.0, 500.0
+MOST_SECONDS = 10.0
+MOST_MEGABYTES = 500.0
 
 # One process loads the command line, and forks for each command: what that takes is the child's, and its children's.
 _FORKS = """

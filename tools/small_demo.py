@@ -18,7 +18,8 @@ import plantar
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "plantar" / "commands" / "small_demo"
-BEGIN, END = 5.0, 13.0  # s of the walk, which takes about 20 steps in 29 s
+BEGIN = 5.0  # s of the walk, which takes about 20 steps in 29 s
+END = 13.0
 SKINS = ("/skin/left", "/skin/right")
 POSES = ("/tf", "/truth/body", "/truth/left", "/truth/right")
 RATE = {**dict.fromkeys(SKINS, 50.0), **dict.fromkeys(POSES, 25.0)}  # Hz

@@ -91,13 +91,18 @@ def sampled(surfaces: Sequence[GeomSurface], pitch: float, mirrored: bool) -> Sa
     `mirrored` the lattice is that of a body mirrored in y, so that its points are mirrored.
     """
     flip = np.array([1.0, -1.0 if mirrored else 1.0, 1.0])
-    points, normals, areas = [], [], []
+    points = []
+    normals = []
+    areas = []
     for k, surface in enumerate(surfaces):
         low, high = surface.bounds()
         if mirrored:
-            low, high = np.minimum(low * flip, high * flip), np.maximum(low * flip, high * flip)
+            ends = np.array([low, high]) * flip
+            low = ends.min(axis=0)
+            high = ends.max(axis=0)
         for axis in range(3):
-            first, second = (axis + 1) % 3, (axis + 2) % 3
+            first = (axis + 1) % 3
+            second = (axis + 2) % 3
             ticks = [
                 (np.arange(math.floor(low[j] / pitch) - 1, math.ceil(high[j] / pitch) + 1) + _SHIFTS[j]) * pitch
                 for j in (first, second)
@@ -151,7 +156,10 @@ def _cells(samples: Samples, owner: NDArray[np.int64], width: float) -> SurfaceC
     from scipy.spatial import cKDTree
 
     used = np.unique(owner)
-    positions, normals, areas, rings = [], [], [], []
+    positions = []
+    normals = []
+    areas = []
+    rings = []
     for cell in used.tolist():
         own = owner == cell
         points = samples.points[own]

@@ -162,7 +162,8 @@ def test_gains_of_single_joints_replace_those_of_the_motors():
     control = {"control": {"drives": "own"}}
     own = load_controller("h1", control).gains
     gains = load_controller("h1", control, gains={"left_knee": 150.0, "right_knee": (150, 4.0)}).gains
-    left, right = 3, 9
+    left = 3
+    right = 9
     assert [gains.stiffness[left], gains.stiffness[right], gains.damping[right]] == [150.0, 150.0, 4.0]
     share = gains.damping[left] / own.damping[left]
     assert share == pytest.approx(np.sqrt(150.0 / own.stiffness[left]))  # the same share of critical

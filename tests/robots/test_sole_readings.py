@@ -21,7 +21,8 @@ def test_a_load_is_spread_exactly_and_never_pulls(walker):
     layout = walker.robot.layouts["left"]
     spread = LoadSpread(layout)
     rng = np.random.default_rng(5)
-    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
+    low = layout.outline.min(axis=0)
+    high = layout.outline.max(axis=0)
     for load in (3.0, 40.0, 400.0):
         for point in rng.uniform(low, high, (20, 2)):
             forces = spread.forces(load, point)

@@ -63,8 +63,10 @@ def encoder_offsets(
             arm = rotation @ places[i]
             place = slice(6 * i, 6 * i + 3)
             turn = slice(6 * i + 3, 6 * i + 6)
-            rows[place, :k], rows[turn, :k] = -rotation @ moved[i], -rotation @ turned[i]
-            rows[place, k : k + 3], rows[place, k + 3 :] = -_cross(arm), np.eye(3)
+            rows[place, :k] = -rotation @ moved[i]
+            rows[turn, :k] = -rotation @ turned[i]
+            rows[place, k : k + 3] = -_cross(arm)
+            rows[place, k + 3 :] = np.eye(3)
             rows[turn, k : k + 3] = np.eye(3)
             errors[place] = position + arm - (x, y, z)
             errors[turn] = sine_vector(rotation @ turns[i] @ level_rotation(yaw).T)
@@ -117,7 +119,8 @@ def _differenced(
             bent[i - 1] += _STEP
         posture = kinematics(bent)
         for j, side in enumerate(SIDES):
-            places[i, j], turns[i, j] = posture.positions[side], posture.rotations[side]
+            places[i, j] = posture.positions[side]
+            turns[i, j] = posture.rotations[side]
     moved = (places[1:] - places[0]) / _STEP
     turn = turns[1:] @ turns[0].transpose(0, 2, 1)
     sine = np.stack(

@@ -37,42 +37,59 @@ class GroundSight:
     """
 
     def __init__(self, places, corners, averaging, noise, jumps, follow, poses):
-        self.x, self.y = np.array(places[:, 0], dtype=float), np.array(places[:, 1], dtype=float)
-        self.middle_x, self.middle_y = float(places[:, 0].mean()), float(places[:, 1].mean())
+        self.x = np.array(places[:, 0], dtype=float)
+        self.y = np.array(places[:, 1], dtype=float)
+        self.middle_x = float(places[:, 0].mean())
+        self.middle_y = float(places[:, 1].mean())
         self.corners = np.array(corners, dtype=float)
         self.moving, self.still, self.halving = averaging
         self.least_noise, self.noise_share = noise
         self.jump, self.jump_of_all = jumps
         self.least, self.steepest = follow
         count = len(self.x)
-        self.distance, self.readings = np.full(count, _INFINITE), np.zeros(count)
-        self.news, self.work = np.zeros(count), np.zeros(count)
-        self.used, self.plane = np.zeros(count, dtype=np.uint8), np.zeros(3)
+        self.distance = np.full(count, _INFINITE)
+        self.readings = np.zeros(count)
+        self.news = np.zeros(count)
+        self.work = np.zeros(count)
+        self.used = np.zeros(count, dtype=np.uint8)
+        self.plane = np.zeros(3)
         self.poses = np.zeros((poses, 7))  # a ring: time, position, and the sole's z axis
-        self.count = self.last = 0
+        self.count = 0
+        self.last = 0
         self.rise = np.zeros(3)
         self.noise = self.least_noise
         self.most = self.moving
-        self.seen = self.on_plane = 0
-        self.nearest = self.middle = self.slope_x = self.slope_y = 0.0
-        self.found = self.sloped = False
+        self.seen = 0
+        self.on_plane = 0
+        self.nearest = 0.0
+        self.middle = 0.0
+        self.slope_x = 0.0
+        self.slope_y = 0.0
+        self.found = False
+        self.sloped = False
 
     def begin(self):
         """Empty the map for a swing."""
         for i in range(self.distance.shape[0]):
-            self.distance[i], self.readings[i] = _INFINITE, 0.0
+            self.distance[i] = _INFINITE
+            self.readings[i] = 0.0
         self.count = 0
 
     def move(self, time, position, rotation):
         """Carry the map to the sole's pose at a `time` in s: position (3,) in m, and rotation (3, 3) to the world."""
-        p, r = memory.values(position), memory.values(rotation)
+        p = memory.values(position)
+        r = memory.values(rotation)
         if self.count:
             before = self.poses[self.last]
-            x, y, z = p[0] - before[1], p[1] - before[2], p[2] - before[3]
+            x = p[0] - before[1]
+            y = p[1] - before[2]
+            z = p[2] - before[3]
             moved = math.sqrt(x * x + y * y + z * z)
             self.most = max(self.moving, self.still * self.halving / (self.halving + moved))
             self._risen(self.last, p, r)
-            up, along, aside = self.rise[0], self.rise[1], self.rise[2]
+            up = self.rise[0]
+            along = self.rise[1]
+            aside = self.rise[2]
             for i in range(self.distance.shape[0]):
                 self.distance[i] += up + along * self.x[i] + aside * self.y[i]
             self.last = (self.last + 1) % self.poses.shape[0]
@@ -85,7 +102,9 @@ class GroundSight:
     def _risen(self, pose, p, r):
         """Write to `rise` the taxels' rise since a kept pose: in m, and tangents along x and y."""
         before = self.poses[pose]
-        x, y, z = p[0] - before[1], p[1] - before[2], p[2] - before[3]
+        x = p[0] - before[1]
+        y = p[1] - before[2]
+        z = p[2] - before[3]
         self.rise[0] = r[2] * x + r[5] * y + r[8] * z
         self.rise[1] = before[4] * r[0] + before[5] * r[3] + before[6] * r[6]
         self.rise[2] = before[4] * r[1] + before[5] * r[4] + before[6] * r[7]
@@ -97,8 +116,11 @@ class GroundSight:
         """
         given = memory.values(reading)
         self._risen_since(time, memory.values(position), memory.values(rotation))
-        up, along, aside = self.rise[0], self.rise[1], self.rise[2]
-        fresh, total = 0, 0.0
+        up = self.rise[0]
+        along = self.rise[1]
+        aside = self.rise[2]
+        fresh = 0
+        total = 0.0
         for i in range(self.distance.shape[0]):
             now = given[i] + (up + along * self.x[i] + aside * self.y[i])
             self.news[i] = now
@@ -126,8 +148,12 @@ class GroundSight:
         """Write to `rise` the taxels' rise since a `time`, between kept poses in proportion to it."""
         size = self.poses.shape[0]
         later = self.poses[self.last, 0]
-        up = along = aside = 0.0
-        self.rise[0] = self.rise[1] = self.rise[2] = 0.0
+        up = 0.0
+        along = 0.0
+        aside = 0.0
+        self.rise[0] = 0.0
+        self.rise[1] = 0.0
+        self.rise[2] = 0.0
         for k in range(self.count):
             pose = (self.last - k + size) % size
             then = self.poses[pose, 0]
@@ -141,7 +167,9 @@ class GroundSight:
                 self.rise[2] += share * (aside - self.rise[2])
                 return
             later = then
-            up, along, aside = self.rise[0], self.rise[1], self.rise[2]
+            up = self.rise[0]
+            along = self.rise[1]
+            aside = self.rise[2]
 
     def look(self, bias):
         """Find the highest ground, distances less a `bias` in m; returns whether three taxels see any."""

@@ -26,8 +26,12 @@ class SeenDepth:
     """
 
     def __init__(self, count, least, highest, deep, share):
-        self.least, self.highest, self.deep, self.share = least, highest, deep, share
-        self.depth, self.work = np.zeros(count), np.zeros(count)
+        self.least = least
+        self.highest = highest
+        self.deep = deep
+        self.share = share
+        self.depth = np.zeros(count)
+        self.work = np.zeros(count)
         self.looks = 0
 
     def lift(self):

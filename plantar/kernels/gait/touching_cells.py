@@ -24,15 +24,19 @@ class TouchingCells:
     def __init__(self, places, touches, least_force, least_share, smoothing, gap):
         self.places = np.array(places, dtype=float)
         self.touches = touches
-        self.least_force, self.least_share = least_force, least_share
-        self.smoothing, self.gap = smoothing, gap
+        self.least_force = least_force
+        self.least_share = least_share
+        self.smoothing = smoothing
+        self.gap = gap
         self.mean = np.zeros(len(touches))
         self.slope = np.zeros((len(touches), 2))
 
     def lift(self):
         """Clear the contacts of a foot in the air."""
         for i in range(self.mean.shape[0]):
-            self.mean[i] = self.slope[i, 0] = self.slope[i, 1] = 0.0
+            self.mean[i] = 0.0
+            self.slope[i, 0] = 0.0
+            self.slope[i, 1] = 0.0
             self.touches[i] = 0
 
     def carry(self, force, rotation):
@@ -40,7 +44,8 @@ class TouchingCells:
 
         Returns whether another cell touches.
         """
-        given, r = memory.values(force), memory.values(rotation)
+        given = memory.values(force)
+        r = memory.values(rotation)
         total = 0.0
         for i in range(self.mean.shape[0]):
             now = given[i] if -_INFINITE < given[i] < _INFINITE else 0.0
@@ -53,7 +58,8 @@ class TouchingCells:
                 changed = changed or not self.touches[i]
                 self.touches[i] = 1
                 # A cell that carries has not lifted off, as the sole did before or not: rises count from here.
-                self.slope[i, 0], self.slope[i, 1] = r[6], r[7]
+                self.slope[i, 0] = r[6]
+                self.slope[i, 1] = r[7]
         return changed
 
     def turn(self, rotation, center_of_pressure):
@@ -62,7 +68,8 @@ class TouchingCells:
         The sole turns about its center of pressure (2,): to first order a cell rises by slope times its distance from
         there.
         """
-        r, point = memory.values(rotation), memory.values(center_of_pressure)
+        r = memory.values(rotation)
+        point = memory.values(center_of_pressure)
         changed = False
         for i in range(self.mean.shape[0]):
             if self.touches[i]:

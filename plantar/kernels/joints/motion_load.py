@@ -23,14 +23,18 @@ class MotionLoad:
 
     def __init__(self, state, gravity, rows, load, root, axes, armature, torques):
         self.velocity, self.acceleration = state
-        self.gravity, self.rows, self.load = gravity, rows, load
+        self.gravity = gravity
+        self.rows = rows
+        self.load = load
         self.position, self.rotation, self.com = root
         self.axes, self.joints = axes
-        self.armature, self.torques = armature, torques
+        self.armature = armature
+        self.torques = torques
 
     def move(self, velocity, acceleration):
         """Write the motion (6 + k,) in m/s and rad/s, m/s^2 and rad/s^2, as if it fell: the weight is carried."""
-        speeds, changes = memory.values(velocity), memory.values(acceleration)
+        speeds = memory.values(velocity)
+        changes = memory.values(acceleration)
         for i in range(self.rows.shape[0]):
             self.velocity[self.rows[i]], self.acceleration[self.rows[i]] = speeds[i], changes[i]
         for i in range(3):
@@ -45,9 +49,15 @@ class MotionLoad:
             couple_x: Couple in N m about x that the forces on the soles exert already; `couple_y` about y.
             whole: Whether an unloaded leg gets what moves it, too.
         """
-        changes, load = memory.values(acceleration), self.load
-        x, y, z = self.com[0] - self.position[0], self.com[1] - self.position[1], self.com[2] - self.position[2]
-        fx, fy, fz, r = load[0], load[1], load[2], self.rotation
+        changes = memory.values(acceleration)
+        load = self.load
+        x = self.com[0] - self.position[0]
+        y = self.com[1] - self.position[1]
+        z = self.com[2] - self.position[2]
+        fx = load[0]
+        fy = load[1]
+        fz = load[2]
+        r = self.rotation
         tx = r[0] * load[3] + r[1] * load[4] + r[2] * load[5] - (y * fz - z * fy + couple_x)
         ty = r[3] * load[3] + r[4] * load[4] + r[5] * load[5] - (z * fx - x * fz + couple_y)
         tz = r[6] * load[3] + r[7] * load[4] + r[8] * load[5] - (x * fy - y * fx)

@@ -37,9 +37,12 @@ class TrackingCheck:
 
         Targets that did not move since the last tick are not compared: they may not be what the drives get.
         """
-        q, c = memory.values(measured), memory.values(commanded)
-        before, off = memory.room(self.before), memory.room(self.off)
-        over, calm = memory.room(self.over), memory.room(self.calm)
+        q = memory.values(measured)
+        c = memory.values(commanded)
+        before = memory.room(self.before)
+        off = memory.room(self.off)
+        over = memory.room(self.over)
+        calm = memory.room(self.calm)
         moves = False
         for i in range(self.joints):
             if c[i] != before[i]:

@@ -33,32 +33,52 @@ class Uprightness:
         self.gravity = gravity
         self.frozen = frozen
         self.begun = False
-        self.x = self.y = self.ax = self.ay = 0.0
-        self.z = self.az = 1.0
-        self.turned = self.pulled = 1.0
-        self.turns = self.pulls = False
-        self.gyro_x = self.gyro_y = self.gyro_z = self.force_x = self.force_y = self.force_z = 0.0
-        self.gyro_same = self.force_same = 0
+        self.x = 0.0
+        self.y = 0.0
+        self.ax = 0.0
+        self.ay = 0.0
+        self.z = 1.0
+        self.az = 1.0
+        self.turned = 1.0
+        self.pulled = 1.0
+        self.turns = False
+        self.pulls = False
+        self.gyro_x = 0.0
+        self.gyro_y = 0.0
+        self.gyro_z = 0.0
+        self.force_x = 0.0
+        self.force_y = 0.0
+        self.force_z = 0.0
+        self.gyro_same = 0
+        self.force_same = 0
 
     def update(self, gyro, accelerometer):
         """Follow a tick's gyro (3,) in rad/s and accelerometer (3,) in m/s^2; returns whether one of them works."""
         turns = memory.size(gyro) == 3 and self._turn(memory.values(gyro))
         pulls = memory.size(accelerometer) == 3 and self._pull(memory.values(accelerometer), turns)
-        self.turns, self.pulls = turns, pulls
+        self.turns = turns
+        self.pulls = pulls
         self.turned = self.z
         size = math.sqrt(self.ax * self.ax + self.ay * self.ay + self.az * self.az)
         self.pulled = self.az / size if size > 0.0 else 1.0
         return turns or pulls
 
     def _turn(self, w):
-        wx, wy, wz = w[0], w[1], w[2]
+        wx = w[0]
+        wy = w[1]
+        wz = w[2]
         same = wx == self.gyro_x and wy == self.gyro_y and wz == self.gyro_z
         self.gyro_same = self.gyro_same + 1 if same else 0
-        self.gyro_x, self.gyro_y, self.gyro_z = wx, wy, wz
+        self.gyro_x = wx
+        self.gyro_y = wy
+        self.gyro_z = wz
         spin = wx * wx + wy * wy + wz * wz
         if self.gyro_same >= self.frozen or not 0.0 < spin < _SPIN * _SPIN:
             return False
-        x, y, z, dt = self.x, self.y, self.z, self.period
+        x = self.x
+        y = self.y
+        z = self.z
+        dt = self.period
         # A direction that is fixed in the world turns by -w in the base frame.
         self.x = x + dt * (y * wz - z * wy)
         self.y = y + dt * (z * wx - x * wz)
@@ -66,16 +86,22 @@ class Uprightness:
         return True
 
     def _pull(self, a, turns):
-        x, y, z = a[0], a[1], a[2]
+        x = a[0]
+        y = a[1]
+        z = a[2]
         same = x == self.force_x and y == self.force_y and z == self.force_z
         self.force_same = self.force_same + 1 if same else 0
-        self.force_x, self.force_y, self.force_z = x, y, z
+        self.force_x = x
+        self.force_y = y
+        self.force_z = z
         size = math.sqrt(x * x + y * y + z * z)
         if self.force_same >= self.frozen or not _LEAST < size < _MOST:
             return False
         if not self.begun:
             self.begun = True
-            self.x, self.y, self.z = x / size, y / size, z / size
+            self.x = x / size
+            self.y = y / size
+            self.z = z / size
             self.ax, self.ay, self.az = self.x, self.y, self.z
         share = min(1.0, self.period / _ALONE)
         self.ax += share * (x / self.gravity - self.ax)

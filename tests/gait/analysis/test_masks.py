@@ -52,7 +52,8 @@ def test_polygons_of_a_file_measure_as_those_of_a_script(tmp_path):
             assert all(step.regions[name] == pytest.approx(own[name], rel=1e-9) for name in own)
         layout = gait.foot.layout
         # The front half of the insole, cell by cell from the frames.
-        low, high = layout.vertices[:, 0].min(), layout.vertices[:, 0].max()
+        low = layout.vertices[:, 0].min()
+        high = layout.vertices[:, 0].max()
         front = layout.positions[:, 0] > 0.5 * (low + high)
         step = gait.steps[1]
         load = gait.foot.force[step.contact.begin : step.contact.end][:, front].sum(axis=1)

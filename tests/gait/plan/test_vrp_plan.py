@@ -115,7 +115,8 @@ def test_both_forms_of_the_kernel_agree_to_the_last_bit():
     for _ in range(20):
         knots = np.cumsum(rng.uniform(0.1, 1.0, 6))
         given = (float(rng.uniform(1.0, 5.0)), knots, rng.normal(size=(6, 2)), *rng.normal(size=(2, 5, 2)), (0.3, -0.1))
-        compiled, interpreted = pendulum.PendulumCourse(*given), source.PendulumCourse(*given)
+        compiled = pendulum.PendulumCourse(*given)
+        interpreted = source.PendulumCourse(*given)
         for time in rng.uniform(knots[0] - 0.5, knots[-1], 30).tolist():  # to and fro
             assert len(compiled.at(time)) == len(interpreted.at(time)) == 6
             assert np.array_equal(compiled.at(time), interpreted.at(time))

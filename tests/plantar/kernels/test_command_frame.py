@@ -57,7 +57,8 @@ def test_both_forms_agree_to_the_last_bit():
 
 def test_a_copy_stays_where_it_was():
     frame = followed([1.02, 1.97, 0.0], 0.05, ticks=20)
-    kept, point = frame.now(), np.array([1.1, 2.1])
+    kept = frame.now()
+    point = np.array([1.1, 2.1])
     before = kept.to_command(point)
     frame.update(np.array([1.0, 2.0, 0.0]), np.array([1.5, 2.5, 0.0]), 0.3)
     assert np.array_equal(kept.to_command(point), before)
@@ -66,8 +67,10 @@ def test_a_copy_stays_where_it_was():
 
 def test_a_point_is_turned_about_the_com_to_the_command_frames_heading():
     frame = followed([1.3, 2.2, 0.1], 0.4)
-    com, point = np.array([1.2, 2.0, 0.8]), np.array([1.0, 2.3, 0.05])
+    com = np.array([1.2, 2.0, 0.8])
+    point = np.array([1.0, 2.3, 0.05])
     away = frame.to_world(point) - com
-    c, s = np.cos(frame.turn), np.sin(frame.turn)
+    c = np.cos(frame.turn)
+    s = np.sin(frame.turn)
     wanted = com + np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ away
     assert frame.aligned(point, com) == pytest.approx(wanted, abs=1e-12)

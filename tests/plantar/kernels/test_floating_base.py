@@ -249,7 +249,10 @@ def test_rotations_are_those_of_scipy(size):
 @pytest.mark.parametrize("seed", range(3))
 def test_a_whole_tick_is_its_parts(seed):
     """`load`, `step` and `settle` against `carry`, `follow`, the feet's heights, a low pass and `observe`."""
-    mu, turning, same, share = 0.07, 0.3, 0.4, 0.02
+    mu = 0.07
+    turning = 0.3
+    same = 0.4
+    share = 0.02
     forms = (floating_base, SOURCES["floating_base"])
     filters = (push_filter, kernels.python_form("push_filter"))
     pushes = [module.PushFilter(0.4, 0.15, 0.05) for module in filters]
@@ -257,10 +260,14 @@ def test_a_whole_tick_is_its_parts(seed):
         base_of(form, None, None, push, (mu, turning), (same, share)) for form, push in zip(forms, pushes, strict=True)
     ]
     plain, state = base_of(floating_base)
-    low, acts, heights = np.zeros(2), False, [math.nan, math.nan]
-    rng, acted = np.random.default_rng([seed, 1]), set()
+    low = np.zeros(2)
+    acts = False
+    heights = [math.nan, math.nan]
+    rng = np.random.default_rng([seed, 1])
+    acted = set()
     for posture, gyro, specific, planned, loads, cops, _, _ in ticks(seed):
-        plan, swing = np.zeros(2) if planned is None else planned, rng.normal(size=2)
+        plan = np.zeros(2) if planned is None else planned
+        swing = rng.normal(size=2)
         felt = rng.normal(size=2) if rng.random() < 0.2 else None
         base_acceleration = (plan - mu * swing) / (1.0 - 2.0 * mu)
         tare = 5.0 * rng.random()
@@ -270,19 +277,24 @@ def test_a_whole_tick_is_its_parts(seed):
             if cop is None:
                 plain.carry(side, carried[side], False, 0.0, 0.0)
         zmp = plain.follow(*gyro, *specific, *base_acceleration)
-        error, total = 0.0, 0.0
+        error = 0.0
+        total = 0.0
         for side in range(2):
-            weight, z = carried[side] - LEAST, state[4][side, 2]
+            weight = carried[side] - LEAST
+            z = state[4][side, 2]
             if weight <= 0.0:
                 heights[side] = math.nan
                 continue
             if math.isnan(heights[side]):
-                other, rise = heights[1 - side], z - state[4][1 - side, 2]
+                other = heights[1 - side]
+                rise = z - state[4][1 - side, 2]
                 heights[side] = z if math.isnan(other) else other if abs(rise) < same else other + rise
-            error, total = error + weight * (z - heights[side]), total + weight
+            error = error + weight * (z - heights[side])
+            total = total + weight
         state[1][2] -= share * error / total if total > 0.0 else 0.0
         if zmp is None:
-            low, acts = np.zeros(2), False
+            low = np.zeros(2)
+            acts = False
         else:
             pendulum = OMEGA**2 * (state[2][:2] - zmp) + turning * swing
             low = low + 0.4 * ((state[0] @ specific)[:2] - (base_acceleration - plan) - pendulum - low)

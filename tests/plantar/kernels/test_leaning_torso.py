@@ -10,16 +10,21 @@ from plantar.kernels.gait import leaning_torso
 from plantar.mechanics.rotation import rotation_from_angles
 
 FORMS = pytest.mark.parametrize("form", [leaning_torso, python_form("leaning_torso")], ids=["compiled", "python"])
-REACH, LEAN, ROUNDED = 0.08, 1.5, 0.2
+REACH = 0.08
+LEAN = 1.5
+ROUNDED = 0.2
 
 
 @FORMS
 def test_it_leans_by_the_way_aside_within_its_reach_and_no_farther_beyond(form):
     rng = np.random.default_rng(2)
     for _ in range(50):
-        yaw, middle = float(rng.uniform(-3.0, 3.0)), rng.normal(size=3)
-        along, across = np.array([math.cos(yaw), math.sin(yaw), 0.0]), np.array([-math.sin(yaw), math.cos(yaw), 0.0])
-        left, right = middle + 0.1 * across + 0.2 * along, middle - 0.1 * across - 0.2 * along
+        yaw = float(rng.uniform(-3.0, 3.0))
+        middle = rng.normal(size=3)
+        along = np.array([math.cos(yaw), math.sin(yaw), 0.0])
+        across = np.array([-math.sin(yaw), math.cos(yaw), 0.0])
+        left = middle + 0.1 * across + 0.2 * along
+        right = middle - 0.1 * across - 0.2 * along
         for aside, wanted in ((0.5 * REACH, 0.5), (0.94 * REACH, 0.94), (1.2 * REACH, 1.05), (3.0 * REACH, 1.05)):
             for sign in (-1.0, 1.0):
                 com = middle + sign * aside * across + 0.3 * along

@@ -37,9 +37,11 @@ def test_both_forms_are_the_formula(seed, whole):
 
 
 def test_velocity_and_acceleration_of_solutions_are_those_of_a_low_pass():
-    rows, moved = np.array([4, 0, 2]), np.zeros(5)
+    rows = np.array([4, 0, 2])
+    moved = np.zeros(5)
     forms = [m.JointMotion(moved, rows, 0.005, 0.3) for m in (motion_load, python_form("motion_load"))]
-    velocity, acceleration = np.zeros(3), np.zeros(3)
+    velocity = np.zeros(3)
+    acceleration = np.zeros(3)
     for moved[:] in np.random.default_rng(0).normal(size=(20, 5)):
         acceleration += 0.3 * ((moved[rows] - velocity) / 0.005 - acceleration)
         velocity = moved[rows]

@@ -40,7 +40,9 @@ def test_compiled_form_is_the_interpreted_one(way):
     forces = rng.normal(size=3 * contacts)
     found = []
     for part, shapes in ((patch_load, foot_contacts), tuple(python_form(n) for n in ("patch_load", "foot_contacts"))):
-        foot, seen, load = shapes.FootContacts(own), shapes.ContactsInSole(), part.PatchLoad(*kernel)
+        foot = shapes.FootContacts(own)
+        seen = shapes.ContactsInSole()
+        load = part.PatchLoad(*kernel)
         shapes.gather_feet((foot,), shapes.ContactList(*listed), forces)
         load.press(foot, seen, 5e-4)
         found.append((load.vectors, load.forces, load.depths, load.wrench))

@@ -11,16 +11,20 @@ from plantar.kernels.joints import static_load, task_step
 def test_a_velocity_holds_the_weight_of_all_that_it_moves(seed):
     rng = np.random.default_rng(seed)
     parents = np.array([0, 0, 1, 2, 1, 0, 5])  # two trees; the world is body 0
-    bodies, places = np.array([1, 1, 2, 3, 4, 4, 6]), np.array([5, 2, 0])
+    bodies = np.array([1, 1, 2, 3, 4, 4, 6])
+    places = np.array([5, 2, 0])
     inertias, motions = rng.normal(size=(7, 10)), rng.normal(size=(7, 6))
-    gravity, force, torques = rng.normal(size=3), rng.normal(size=3), np.zeros(3)
+    gravity = rng.normal(size=3)
+    force = rng.normal(size=3)
+    torques = np.zeros(3)
     found = []
     for module in (static_load, python_form("static_load")):
         kernel = module.StaticLoad(parents, bodies, inertias, motions, gravity, places, torques)
         for _ in range(2):
             kernel.weigh()
         weights = np.array(kernel.load)
-        center, jacobian = np.array([0.1, -0.2, 0.3]), np.zeros((3, 7))
+        center = np.array([0.1, -0.2, 0.3])
+        jacobian = np.zeros((3, 7))
         tasks = task_step if module is static_load else python_form("task_step")
         kernel.less(tasks.PointRows(np.array([2, 1, 0]), motions, center, jacobian), force, 0.5, 0.4, 0.2)
         kernel.take()

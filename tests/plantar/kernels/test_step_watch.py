@@ -132,8 +132,10 @@ class Follower:
         joints = forms.joint_extremes.JointExtremes(*[np.zeros(1), np.zeros(1, dtype=np.intp), np.ones(1)] * 2)
         stance = forms.stance_force.StanceForce(self.reaction, self.center, 80.0, 9.81, 1e-3, (2, 5), 20.0, 2e-3)
         self.events = np.random.default_rng([seed, 1])
-        self.applied, self.known = np.zeros((4, 6)), np.zeros((4, 6))
-        axes, own = np.zeros(3), np.array([0, 2])
+        self.applied = np.zeros((4, 6))
+        self.known = np.zeros((4, 6))
+        axes = np.zeros(3)
+        own = np.array([0, 2])
         self.watch = forms.step_watch.StepWatch(
             self.reaction,
             self.stands,
@@ -165,9 +167,11 @@ class Follower:
                 foot.clear()
                 alone.clear()
         loads = [0.0 if up else load for (*_, load), up in zip(drawn, in_air, strict=True)]
-        feet, more = tuple(foot for foot, _, _ in drawn), int(self.events.choice([0, 0, 1]))
+        feet = tuple(foot for foot, _, _ in drawn)
+        more = int(self.events.choice([0, 0, 1]))
         stood_for = bool(self.events.integers(2))
-        self.applied[2, 1], self.known[2, 1] = 3.0, 3.0 * stood_for
+        self.applied[2, 1] = 3.0
+        self.known[2, 1] = 3.0 * stood_for
         seen = self.watch.step(feet, sum(foot.size for foot in feet) + more)
         self.other.update(tuple(alone for _, alone, _ in drawn))
         wanted = self.forms.step_watch.LEGS * int(self.legs[0]) + self.forms.step_watch.OTHERS * more
@@ -242,7 +246,9 @@ def test_a_state_that_diverged_is_reported(forms):
 @FORMS
 @pytest.mark.parametrize("value", [3.0, -2e-9, math.nan, math.inf])
 def test_any_force_that_is_not_known_is_found(forms, value):
-    on_bodies, known, on_joints = np.zeros((5, 6)), np.zeros((5, 6)), np.zeros(7)
+    on_bodies = np.zeros((5, 6))
+    known = np.zeros((5, 6))
+    on_joints = np.zeros(7)
     applied = forms.applied_forces.AppliedForces(on_bodies, known, on_joints, np.array([1, 4]), 1e-9)
     assert not applied.unknown()
     for place in np.ndindex(5, 6):

@@ -12,9 +12,12 @@ FORMS = pytest.mark.parametrize("form", [tick_ring, python_form("tick_ring")], i
 @FORMS
 @pytest.mark.parametrize("ticks", [0, 1, 6, 7, 8, 25])
 def test_the_last_ticks_are_kept_in_order(form, ticks):
-    rng, ring, rows = np.random.default_rng(ticks), form.TickRing(7, (3, 1)), []
+    rng = np.random.default_rng(ticks)
+    ring = form.TickRing(7, (3, 1))
+    rows = []
     for _ in range(ticks):
-        numbers, fields = rng.normal(size=4).tolist(), (rng.normal(size=3), rng.normal(size=1))
+        numbers = rng.normal(size=4).tolist()
+        fields = (rng.normal(size=3), rng.normal(size=1))
         ring.add(*numbers, fields)
         rows.append(np.concatenate([numbers, *fields]))
     assert np.array_equal(ring.kept(), np.array(rows[-7:]).reshape(-1, 8))

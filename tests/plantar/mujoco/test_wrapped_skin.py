@@ -51,10 +51,12 @@ def touch(model: mujoco.MjModel, degrees: float, height: float) -> mujoco.MjData
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     way = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees)), 0.0])
-    turn, middle = data.xmat[1].reshape(3, 3), data.xpos[1].copy()
+    turn = data.xmat[1].reshape(3, 3)
+    middle = data.xpos[1].copy()
     own = [g for g in range(model.ngeom) if model.body_rootid[model.geom_bodyid[g]] == 1]
     probe = model.geom("probe").id
-    near, far = 0.0, 0.3
+    near = 0.0
+    far = 0.3
     for _ in range(60):  # to an overlap of 0.1 mm
         data.qpos[7:10] = middle + turn @ (0.5 * (near + far) * way + [0.0, 0.0, height])
         mujoco.mj_kinematics(model, data)
@@ -72,10 +74,13 @@ def counted(feel, data, touches) -> tuple[NDArray[np.float64], NDArray[np.float6
     """
     model = feel.model
     pose = feel.pose(data)
-    turn, origin = pose.rotation_sole_to_world, pose.position_in_world
+    turn = pose.rotation_sole_to_world
+    origin = pose.position_in_world
     places = feel.layout.positions @ turn.T + origin
     axes = feel.layout.rotations[:, :, 2] @ turn.T
-    forces, wrench, local = np.zeros_like(places), np.zeros(6), np.zeros(6)
+    forces = np.zeros_like(places)
+    wrench = np.zeros(6)
+    local = np.zeros(6)
     for i, contact in enumerate(data.contact):
         first, second = contact.geom
         if (first in feel.geom_ids) == (second in feel.geom_ids) or not touches(contact):
@@ -83,7 +88,8 @@ def counted(feel, data, touches) -> tuple[NDArray[np.float64], NDArray[np.float6
         sign = 1.0 if second in feel.geom_ids else -1.0
         frame = sign * contact.frame.reshape(3, 3)
         mujoco.mj_contactForce(model, data, i, local)
-        force, normal = frame.T @ local[:3], frame[0]
+        force = frame.T @ local[:3]
+        normal = frame[0]
         wrench += np.concatenate([force, frame.T @ local[3:] + np.cross(contact.pos - origin, force)])
         place = contact.pos + 0.5 * contact.dist * normal
         away = places - place
@@ -134,7 +140,8 @@ def test_a_touch_lights_the_cells_about_its_own_point(kind, place):
     feel = Skin(body="body", outward=(1, 0, 0)).bind(model)
     agree(feel, data, lambda _: expected, expected)
     if expected:
-        reading, pose = feel(data), feel.pose(data)
+        reading = feel(data)
+        pose = feel.pose(data)
         point = (data.contact.pos[0] - pose.position_in_world) @ pose.rotation_sole_to_world
         lit = np.flatnonzero(reading.force > 0.0)
         width = np.sqrt(feel.layout.cell_area * 2.0 / np.sqrt(3.0))
@@ -228,7 +235,8 @@ def halves(sign: int) -> tuple[str, str]:
 
 @pytest.mark.parametrize("way", [{"around": (0, 0, 1)}, {"outward": (1, 0.5, 0)}, {"outward": (0, 0, 1), "within": 90}])
 def test_mirrored_bodies_have_mirrored_cells(way):
-    (mesh, left), (other, right) = halves(1), halves(-1)
+    (mesh, left) = halves(1)
+    (other, right) = halves(-1)
     model = mujoco.MjModel.from_xml_string(f"""<mujoco><asset>{mesh}{other}</asset><worldbody><body name="torso"
       pos="0 0 1"><freejoint/><geom size=".01"/>{left}{right}</body></worldbody></mujoco>""")
     flip = np.array([1.0, -1.0, 1.0])
@@ -251,7 +259,8 @@ def test_mirrored_feet_have_mirrored_soles():
             f'<body name="{name}_foot" pos="0 {0.1 * sign} .03"><freejoint/><geom type="mesh" mesh="{name}"/></body>'
         )
 
-    (mesh, left), (other, right) = foot(1), foot(-1)
+    (mesh, left) = foot(1)
+    (other, right) = foot(-1)
     model = mujoco.MjModel.from_xml_string(
         f"<mujoco><asset>{mesh}{other}</asset><worldbody>{left}{right}</worldbody></mujoco>"
     )
@@ -326,7 +335,8 @@ def test_a_second_skin_on_a_body_has_a_site_of_its_own(make_box):
 
 def test_a_patch_that_looks_to_all_sides_is_no_sole(make_box):
     model = mujoco.MjModel.from_xml_string(make_box())
-    feel, data = Skin(body="foot", around=(0, 0, 1)).bind(model), mujoco.MjData(model)
+    feel = Skin(body="foot", around=(0, 0, 1)).bind(model)
+    data = mujoco.MjData(model)
     mujoco.mj_step(model, data, 10)
     with pytest.raises(PlantarError, match="looks to all sides"):
         feel.percept(data)

@@ -42,7 +42,8 @@ def by_mujoco(file: Path, body: str) -> tuple[NDArray[np.float64], float]:
             at = int(model.body_parentid[at])
         if at != wanted or model.geom_contype[g]:
             continue
-        mesh, turn = int(model.geom_dataid[g]), data.geom_xmat[g].reshape(3, 3)
+        mesh = int(model.geom_dataid[g])
+        turn = data.geom_xmat[g].reshape(3, 3)
         if mesh >= 0:
             start = model.mesh_vertadr[mesh]
             points = model.mesh_vert[start : start + model.mesh_vertnum[mesh]]
@@ -149,7 +150,8 @@ def test_meshes_that_mujoco_does_not_read_are_read_here(tmp_path):
     skew(tmp_path / "skew.stl")
     file = tmp_path / "robot.xml"
     file.write_text(f"<mujoco>{STRUCTURES['refpos']}</mujoco>")
-    expected, mass = extent(file, "foot"), told_mass(file, "foot")[0]
+    expected = extent(file, "foot")
+    mass = told_mass(file, "foot")[0]
     trimesh.load(tmp_path / "skew.stl").export(tmp_path / "skew.stl", file_type="stl_ascii")
     np.testing.assert_allclose(extent(file, "foot"), expected, atol=1e-6)
     assert told_mass(file, "foot")[0] == pytest.approx(mass, rel=1e-4)

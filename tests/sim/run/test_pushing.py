@@ -133,11 +133,9 @@ def test_a_push_in_mid_swing_is_estimated_less_the_swing():
     sim.controller.step = stepped
     sim.run()
     times, speed, pendulum, estimated = np.array(rows).T
-    true, low, share = (
-        np.gradient(speed, times) - pendulum,
-        [0.0],
-        -np.expm1(-sim.settings.period / sim.settings.push_estimate.time_constant),
-    )
+    true = np.gradient(speed, times) - pendulum
+    low = [0.0]
+    share = -np.expm1(-sim.settings.period / sim.settings.push_estimate.time_constant)
     for value in true:
         low.append(low[-1] + share * (value - low[-1]))
     (shove,) = sim.pusher.shoves

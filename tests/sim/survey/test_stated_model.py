@@ -256,7 +256,8 @@ def test_torque_limits_of_several_motors_are_what_mujoco_lets_them_reach(tmp_pat
     random = np.random.default_rng(seed)
     motors = ""
     for _ in range(int(random.integers(1, 4))):
-        low, high = random.uniform(-9.0, 0.0) * (random.random() < 0.6), random.uniform(1.0, 9.0)
+        low = random.uniform(-9.0, 0.0) * (random.random() < 0.6)
+        high = random.uniform(1.0, 9.0)
         place = "joint='a'" if random.random() < 0.6 else "tendon='t'"
         gear = f"gear='{random.choice([-1, 1]) * random.uniform(1.0, 30.0)}'"
         damped = f"<general {place} {gear} gainprm='1' biastype='affine' biasprm='0 0 -3' ctrlrange='{low} {high}'/>"
@@ -268,7 +269,8 @@ def test_torque_limits_of_several_motors_are_what_mujoco_lets_them_reach(tmp_pat
     file = tmp_path / "motors.xml"
     file.write_text(f"<mujoco><worldbody>{body}</worldbody>{tendon}<actuator>{motors}</actuator></mujoco>")
     model = mujoco.MjModel.from_xml_path(str(file))
-    data, reached = mujoco.MjData(model), []
+    data = mujoco.MjData(model)
+    reached = []
     for corner in itertools.product(*model.actuator_ctrlrange):
         data.ctrl[:] = corner
         mujoco.mj_forward(model, data)
@@ -306,7 +308,8 @@ def test_what_mujoco_warns_of_is_a_note(tmp_path):
 @pytest.mark.parametrize("odd", [0.0, 0.2, 500.0])
 def test_speed_limits_and_gains_are_those_of_each_joint_on_the_weaker_side(tmp_path, monkeypatch, odd):
     truth = random_biped(10, tmp_path)
-    left, right = truth.joints["left"], truth.joints["right"]
+    left = truth.joints["left"]
+    right = truth.joints["right"]
     source = read_stated_model(truth.file, tmp_path)
     speeds = dict.fromkeys((*left, *right), 9.0) | {left[2]: 4.0, left[-1]: odd, right[-1]: odd}
     gains = dict.fromkeys(left, (900.0, 9.0)) | dict.fromkeys(right, (300.0, 30.0))

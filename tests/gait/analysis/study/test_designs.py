@@ -54,7 +54,8 @@ def test_a_covariate_that_differs_between_levels_is_no_difference():
     """Speed rises with the level and force with speed; allowed for, an error stays 5 of 100. Planted, it is found."""
     random = seeded("speed")
     plain = design_of(2, True)
-    found = planted = 0
+    found = 0
+    planted = 0
     for _ in range(DRAWS):
         speed = random.normal(1.2, 0.1, len(plain.level)) + 0.1 * plain.level
         design = Design(plain.participant, plain.level, speed[:, None], True)
@@ -83,7 +84,8 @@ def test_curves_and_maps_err_in_5_of_100_over_all_pairs(shape):
 
 def test_an_f_is_that_of_two_ways_and_of_one():
     random = seeded("f")
-    within, between = design_of(4, True), design_of(4, False)
+    within = design_of(4, True)
+    between = design_of(4, False)
     values = random.normal(size=(40, 1))
     assert any_differ(values, between, most=50).f[0] == pytest.approx(
         stats.f_oneway(*(values[between.level == k, 0] for k in range(4))).statistic, rel=1e-9

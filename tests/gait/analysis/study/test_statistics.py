@@ -144,7 +144,8 @@ def test_thresholds_and_clusters_are_those_of_spm1d(paired):
 def test_an_adjusted_difference_is_that_of_least_squares():
     """Of a model with a constant for each participant and a covariate, solved by another route."""
     random = np.random.default_rng(7)
-    who, level = np.repeat(np.arange(9), 2), np.tile([0, 1], 9)
+    who = np.repeat(np.arange(9), 2)
+    level = np.tile([0, 1], 9)
     speed = random.normal(1.2, 0.1, 18) + 0.1 * level
     values = 50.0 * speed + random.normal(0.0, 1.0, 18) + np.repeat(random.normal(0.0, 5.0, 9), 2) + 2.0 * level
     (found,) = compare_levels(values[:, None], Design(who, level, speed[:, None], True))
@@ -154,7 +155,8 @@ def test_an_adjusted_difference_is_that_of_least_squares():
     assert found.difference == pytest.approx([beta[-1]], rel=1e-9)
     assert found.error == pytest.approx([error], rel=1e-9)
     assert found.freedom == 7
-    first, second = values[level == 0], values[level == 1]
+    first = values[level == 0]
+    second = values[level == 1]
     effect = adjusted(effect_of(first, second, True, 1.0, 1.0), beta[-1], error, 7)
     reach = stats.t.ppf(0.975, 7) * error
     assert (effect.low, effect.high) == pytest.approx((beta[-1] - reach, beta[-1] + reach), rel=1e-9)

@@ -28,7 +28,8 @@ def seeded(name: str) -> np.random.Generator:
 def test_reliability_is_that_of_a_least_squares_anova():
     """Mean squares from sums of squares of nested linear models, and McGraw & Wong's interval by scipy.stats."""
     random = seeded("icc")
-    n, k = 12, 3
+    n = 12
+    k = 3
     values = random.normal(size=(n, 1)) * 3.0 + random.normal(size=(1, k)) + random.normal(size=(n, k))
     y = values.ravel()
     people = (np.repeat(np.arange(n), k)[:, None] == np.arange(n)).astype(float)
@@ -48,7 +49,8 @@ def test_reliability_is_that_of_a_least_squares_anova():
     assert found.mdc95 == pytest.approx(
         stats.norm.ppf(0.975) * np.sqrt(2 * (error + max(0, msc - error) / n)), rel=1e-9
     )
-    a, b = k * icc / (n * (1 - icc)), 1 + k * icc * (n - 1) / (n * (1 - icc))
+    a = k * icc / (n * (1 - icc))
+    b = 1 + k * icc * (n - 1) / (n * (1 - icc))
     v = (a * msc + b * error) ** 2 / ((a * msc) ** 2 / (k - 1) + (b * error) ** 2 / ((n - 1) * (k - 1)))
     f = stats.f.ppf(0.975, n - 1, v)
     low = n * (msr - f * error) / (f * (k * msc + (k * n - k - n) * error) + n * msr)
@@ -81,7 +83,8 @@ def test_limits_of_single_pairs_are_bland_and_altmans():
 
 def test_one_against_a_group_is_crawford_and_howells():
     random = seeded("crawford")
-    group, value = random.normal(100.0, 15.0, 18), 60.0
+    group = random.normal(100.0, 15.0, 18)
+    value = 60.0
     found = standing_of(value, group)
     # Their t is Student's of two samples of which one is of size one.
     assert found.t == pytest.approx((value - group.mean()) / (group.std(ddof=1) * np.sqrt(19 / 18)), rel=1e-9)
@@ -129,8 +132,10 @@ def test_a_balanced_mixed_model_is_the_paired_test_of_means():
     from plantar.gait.analysis.study.mixed_models import fit_mixed
 
     random = seeded("mixed")
-    n, k = 20, 12
-    who, level = np.repeat(np.arange(n), 2 * k), np.tile(np.repeat([0, 1], k), n)
+    n = 20
+    k = 12
+    who = np.repeat(np.arange(n), 2 * k)
+    level = np.tile(np.repeat([0, 1], k), n)
     noise = random.normal(0.0, 4.0, n * 2 * k) + np.repeat(random.normal(0.0, 5.0, 2 * n), k)
     values = 100.0 + np.repeat(random.normal(0.0, 10.0, n), 2 * k) + noise + 2.0 * level
     fit = fit_mixed(values, level, who, np.zeros((len(values), 0)))
