@@ -1,6 +1,7 @@
 """Which optional libraries are installed, missing or broken, and the remedy."""
 
 import platform
+import re
 import sys
 from collections.abc import Mapping
 from ctypes.util import find_library
@@ -29,15 +30,16 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
     """Load every library that Plantar can use.
 
     Returns versions, platform, whether kernels are compiled, a line of that (`kernels`), whether pictures need no
-    display (`opengl`), and each library's extra, name, version and problem: None, "missing" or why it cannot be loaded.
-    `holds` is False where a required one is missing, or one is broken.
+    display (`opengl`), and each library's extra, name, version, problem (None, "missing", why it cannot be loaded, or
+    the version that is needed) and remedy, a command or None. `holds` is False where a required one is missing, or one
+    is broken.
 
     Example:
         >>> examine({"": {"no-such-library": "no_such_library"}})["libraries"][0]["problem"]
         'missing'
     """
     found: list[dict[str, str | None]] = [
-        {"extra": extra, "library": name, **_state(name, module, extra or "all")}
+        {"extra": extra, "library": name, **_state(name, module, extra)}
         for extra, modules in libraries.items()
         for name, module in modules.items()
     ]
@@ -59,8 +61,9 @@ def doctor_text(found: Mapping[str, Any]) -> str:
     """`examine`'s result for people: an extra a paragraph, and what to do.
 
     Example:
-        >>> print(doctor_text(examine({"gym": {"no-such-library": "no_such_library"}})).splitlines()[-1].strip())
-        get them: pip install 'gymnasium>=1.0'
+        >>> text = doctor_text(examine({"gym": {"no-such-library": "no_such_library"}}))
+        >>> text.endswith("pip install 'gymnasium>=1.0'")
+        True
     """
     lines = [f"plantar {found['plantar']}, Python {found['python']}, {found['platform']}", found["kernels"]]
     if not found["opengl"]:
@@ -68,10 +71,17 @@ def doctor_text(found: Mapping[str, Any]) -> str:
     for extra in dict.fromkeys(f["extra"] for f in found["libraries"]):
         own = [f for f in found["libraries"] if f["extra"] == extra]
         lines.append(f"{extra or 'always needed'} ({PURPOSES.get(extra, '')})")
-        lines += [f"    {f['library']} {f['version'] or ''}{_told(f['problem'])}".rstrip() for f in own]
+        for f in own:
+            lines.append(f"    {f['library']} {f['version'] or ''}{_told(f['problem'])}".rstrip())
+            if f["remedy"] is not None:
+                lines.append(f"        repair it: {f['remedy']}")
         if any(f["problem"] == "missing" for f in own):
             lines.append(f"    get them: {DependencyError.install_command(extra)}")
     return "\n".join(lines)
+
+
+_SYSTEM = {"libGL.so": "libgl1", "libX11.so": "libx11-6", "libEGL.so": "libegl1", "libgomp.so": "libgomp1"}
+"""Libraries of the system that wheels need, and the packages of Debian and Ubuntu that bring them."""
 
 
 def _state(name: str, module: str, extra: str) -> dict[str, str | None]:
@@ -83,11 +93,37 @@ def _state(name: str, module: str, extra: str) -> dict[str, str | None]:
         with optional_library(module, extra):
             import_module(module)
     except DependencyError as error:
-        return {"version": installed, "problem": "missing" if installed is None else str(error)}
-    return {"version": installed, "problem": None}
+        if installed is None:
+            return {"version": None, "problem": "missing", "remedy": None}
+        reason = error.reason or "its files are not there"
+        return {"version": installed, "problem": f"cannot be loaded ({reason})", "remedy": _remedy(name, extra, reason)}
+    needed = next((r for r in DependencyError.requirements(extra) if re.split("[^\\w.-]", r)[0] == name), name)
+    if installed is not None and _numbers(installed) < _numbers(needed.partition(">=")[2]):
+        return {
+            "version": installed,
+            "problem": f"too old, {needed} is needed",
+            "remedy": DependencyError.install_command(extra),
+        }
+    return {"version": installed, "problem": None, "remedy": None}
+
+
+def _remedy(name: str, extra: str, reason: str) -> str:
+    """What repairs a library that is installed, and cannot be loaded."""
+    package = next((package for library, package in _SYSTEM.items() if library in reason), None)
+    if package is not None:
+        return f"sudo apt-get install {package} (on Debian or Ubuntu)"
+    lacking = re.search(r"No module named '([\w.]+)", reason)
+    known = {module: library for found in LIBRARIES.values() for library, module in found.items()}
+    program = re.split(" ['\"]", DependencyError.install_command(extra))[0]
+    return f"{program} --force-reinstall {name if lacking is None else known.get(lacking[1], name)}"
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    """The numbers that a version begins with: (3, 10) of "3.10" and "3.10rc1"."""
+    return tuple(int(part) for part in re.match(r"[\d.]*", text)[0].split(".") if part)  # type: ignore[index]
 
 
 def _told(problem: str | None) -> str:
     if problem is None:
         return ""
-    return "missing" if problem == "missing" else f": cannot be loaded: {problem}"
+    return "missing" if problem == "missing" else f": {problem}"

@@ -16,6 +16,9 @@
 Each message is one line: what is wrong and what is allowed.
 """
 
+import os
+import sys
+
 
 class PlantarError(Exception):
     """Root of every error that Plantar raises on purpose."""
@@ -89,23 +92,57 @@ class DependencyError(PlantarError):
     def install_command(extra: str) -> str:
         """The command that installs the libraries of an extra, or with "" those that are always needed.
 
-        It names the libraries, not `plantar[extra]`: that is right in a checkout, beside a wheel and from an index.
+        It names the libraries, not `plantar[extra]`: that is right in a checkout, beside a wheel and from an index. It
+        installs for the Python that runs, also where another one's pip is found first, or none is there.
 
         Example:
-            >>> DependencyError.install_command("gym")
-            "pip install 'gymnasium>=1.0'"
+            >>> DependencyError.install_command("gym")  # doctest: +ELLIPSIS
+            "...pip install 'gymnasium>=1.0'"
+        """
+        wanted = [_quoted(requirement) for requirement in DependencyError.requirements(extra)]
+        if wanted:
+            return f"{_install()} {' '.join(wanted)}"
+        return f"{_install()} {_quoted(f'.[{extra}]' if extra else '.')} in a checkout of plantar"
+
+    @staticmethod
+    def requirements(extra: str) -> list[str]:
+        """What an extra asks for, or with "" what is always needed; empty if Plantar is on the path alone.
+
+        Example:
+            >>> DependencyError.requirements("gym")
+            ['gymnasium>=1.0']
         """
         from importlib.metadata import PackageNotFoundError, requires
 
         try:
             lines = requires("plantar") or []
-        except PackageNotFoundError:  # on the path, and not installed
-            lines = []
-        wanted = [f"'{line.partition(';')[0].strip()}'" for line in lines if _extra_of(line) == extra]
-        return f"pip install {' '.join(wanted)}" if wanted else f"pip install '.[{extra}]' in a checkout of plantar"
+        except PackageNotFoundError:
+            return []
+        return [line.partition(";")[0].strip() for line in lines if _extra_of(line) == extra]
 
 
 def _extra_of(requirement: str) -> str:
     """Extra of a line such as 'mujoco>=3.10; extra == "sim"'; "" without one."""
     _, _, marker = requirement.partition("extra ==")
     return marker.strip().strip("\"'")
+
+
+def _quoted(word: str) -> str:
+    """A word that neither a shell nor cmd.exe, which knows no single quotes, takes apart."""
+    return f'"{word}"' if os.name == "nt" else f"'{word}'"
+
+
+def _install() -> str:
+    """How to call the pip of the Python that runs."""
+    from importlib.metadata import PackageNotFoundError, version
+    from shutil import which
+
+    python = _quoted(sys.executable) if " " in sys.executable else sys.executable
+    try:
+        version("pip")
+    except PackageNotFoundError:  # as in environments that uv makes
+        return f"uv pip install --python {python}"
+    found = which("pip")
+    if found is not None and os.path.dirname(found) == os.path.dirname(sys.executable):
+        return "pip install"
+    return f"{python} -m pip install"

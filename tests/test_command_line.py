@@ -84,7 +84,8 @@ def test_the_simulators_benchmark_without_the_simulator_is_one_line(monkeypatch,
     monkeypatch.setitem(sys.modules, "mujoco", None)  # as if it were not installed
     assert called(monkeypatch, "bench", "scenes", "-o", str(tmp_path / "out")) == 2
     said = capsys.readouterr().err
-    assert said.startswith("plantar: mujoco is not installed; install it with: pip install 'mujoco>=")
+    assert said.startswith("plantar: mujoco is not installed; install it with: ")
+    assert "pip install 'mujoco>=" in said
     assert said.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 

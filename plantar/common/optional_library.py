@@ -59,7 +59,7 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
         >>> with optional_library("no_such_library", "shoes"):
         ...     import no_such_library  # doctest: +ELLIPSIS
         Traceback (most recent call last):
-        plantar.errors.DependencyError: no_such_library is not installed; install it with: pip install 'cadquery>=...
+        plantar.errors.DependencyError: no_such_library is not installed; install it with: ...pip install 'cadquery>=...
     """
     with _interrupts_held_back():
         try:
@@ -77,7 +77,7 @@ def need_libraries(extra: str, *libraries: str) -> None:
     Example:
         >>> need_libraries("sim", "json", "no_such_library")  # doctest: +ELLIPSIS
         Traceback (most recent call last):
-        plantar.errors.DependencyError: no_such_library is not installed; install it with: pip install 'mujoco>=...
+        plantar.errors.DependencyError: no_such_library is not installed; install it with: ...pip install 'mujoco>=...
     """
     for library in libraries:
         with optional_library(library, extra):
@@ -95,7 +95,7 @@ def missing_libraries(extra: str = "") -> Iterator[None]:
         >>> with missing_libraries("sim"):  # doctest: +ELLIPSIS
         ...     raise ModuleNotFoundError("No module named 'daqp'", name="daqp")
         Traceback (most recent call last):
-        plantar.errors.DependencyError: daqp is not installed; install it with: pip install 'mujoco>=...
+        plantar.errors.DependencyError: daqp is not installed; install it with: ...pip install 'mujoco>=...
     """
     try:
         yield

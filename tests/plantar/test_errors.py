@@ -40,18 +40,38 @@ def test_missing_dependency_gives_the_command_that_installs_what_its_extra_bring
     """The libraries themselves: the name `plantar` on an index may be another package."""
     lines = ["numpy>=2.0", "trimesh>=4.5; extra == 'shoes'", 'cadquery>=2.5 ; extra == "shoes"', 'daqp; extra == "sim"']
     monkeypatch.setattr("importlib.metadata.requires", lambda name: lines)
+    monkeypatch.setattr("plantar.errors._install", lambda: "pip install")
     error = errors.DependencyError("cadquery", "shoes")
     assert str(error) == "cadquery is not installed; install it with: pip install 'trimesh>=4.5' 'cadquery>=2.5'"
     assert (error.library, error.extra) == ("cadquery", "shoes")
     assert errors.DependencyError.install_command("") == "pip install 'numpy>=2.0'"
 
 
-def test_a_checkout_that_is_not_installed_is_what_gets_installed(monkeypatch):
-    def not_installed(name):
-        raise PackageNotFoundError(name)
+def not_installed(name):
+    raise PackageNotFoundError(name)
 
+
+def test_a_checkout_that_is_not_installed_is_what_gets_installed(monkeypatch):
     monkeypatch.setattr("importlib.metadata.requires", not_installed)
+    monkeypatch.setattr("plantar.errors._install", lambda: "pip install")
     assert errors.DependencyError.install_command("sim").startswith("pip install '.[sim]'")
+
+
+@pytest.mark.parametrize(
+    ("found", "own_pip", "begins"),
+    [
+        ("/home/a/venv/bin/pip", True, "pip install '"),
+        ("/usr/bin/pip", True, "/home/a/venv/bin/python -m pip install '"),
+        (None, True, "/home/a/venv/bin/python -m pip install '"),
+        ("/usr/bin/pip", False, "uv pip install --python /home/a/venv/bin/python '"),
+    ],
+)
+def test_the_command_installs_for_the_python_that_runs(found, own_pip, begins, monkeypatch):
+    monkeypatch.setattr("sys.executable", "/home/a/venv/bin/python")
+    monkeypatch.setattr("shutil.which", lambda name: found)
+    monkeypatch.setattr("importlib.metadata.requires", lambda name: ["gymnasium>=1.0; extra == 'gym'"])
+    monkeypatch.setattr("importlib.metadata.version", (lambda name: "25.0") if own_pip else not_installed)
+    assert errors.DependencyError.install_command("gym").startswith(begins)
 
 
 @pytest.mark.parametrize("kind", [k for k in ALL if k is not errors.DependencyError])

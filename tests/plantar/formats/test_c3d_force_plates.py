@@ -19,7 +19,7 @@ from plantar.gait.analysis.steps.foot_gait import Step
 from ...fuzz.made_plates import Contact, Laboratory, made_contact, write_c3d
 from .corruption import survive_corruption
 
-ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed: pip install 'plantar[formats]'")
+ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed: pip install '.[formats]'")
 
 RATE = 500.0
 TIME = np.arange(0.0, 3.0, 1.0 / RATE)

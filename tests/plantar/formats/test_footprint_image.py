@@ -16,7 +16,7 @@ from plantar.gait.analysis.analyse import analyse_recording
 
 from .corruption import refusals
 
-cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install 'plantar[formats]'")
+cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install '.[formats]'")
 
 MM = 0.5
 

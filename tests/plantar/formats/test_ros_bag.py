@@ -12,7 +12,7 @@ from plantar.formats.format import ReadOptions
 
 from .corruption import refusals
 
-pytest.importorskip("rosbags", reason="rosbags is not installed: pip install 'plantar[formats]'")
+pytest.importorskip("rosbags", reason="rosbags is not installed: pip install '.[formats]'")
 
 
 @pytest.fixture(scope="module")
