@@ -2,6 +2,9 @@
 
 Each kernel is plain Python that runs as it is. Without Cython, or where the compiler fails for one of them, the package
 is built without the extensions and works the same, slower. A whole build is stamped (plantar/kernels/build_stamp.py).
+
+The environment variable PLANTAR_HOME, the address of the repository, makes README's links absolute and gives the
+package its addresses; a build without it keeps them as they are.
 """
 
 import os
@@ -18,6 +21,7 @@ KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*/*.pxd") if p.with_suffix(".py"
 # Cython's own code for views of arrays, compiled once: 17,000 lines that each extension held.
 SHARED = KERNEL_FOLDER / "base" / "memoryviews"
 BUILD = "build/cython"
+HOME = os.environ.get("PLANTAR_HOME", "").rstrip("/")
 # Shapes, text and small vectors gain nothing by -O3, which takes a third longer to compile; ticks take 8 % less.
 LEVEL = dict.fromkeys(("base", "geometry", "formats"), "-O2")
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
@@ -140,4 +144,37 @@ class BuildWherePossible(build_ext):
             Path(self.get_ext_fullpath(ext.name)).unlink(missing_ok=True)  # what was made of an older source
 
 
-setup(ext_modules=extensions(), cmdclass={"build_ext": BuildWherePossible})
+def described(text: str, home: str, version: str) -> str:
+    """README whose links lead to a version's files under a home, pictures to what is shown; as it is without a home."""
+
+    def absolute(link: re.Match[str]) -> str:
+        before, path, after = link.groups()
+        shown = before.startswith(("src", "!"))
+        return f"{before}{home}/{'raw' if shown else 'blob'}/v{version}/{path}{after}"
+
+    link = r'((?:src|srcset)="|!?\[(?:[^\[\]]|\[[^\]]*\])*\]\()(?!#|\w+:)([^)"\s]+)([)"])'
+    return re.sub(link, absolute, text) if home else text
+
+
+def addresses(home: str, version: str) -> dict[str, str]:
+    """What an index links to; nothing without a home."""
+    pages = {
+        "Source": "",
+        "Documentation": "/tree/v{}/docs",
+        "Changelog": "/blob/v{}/CHANGELOG.md",
+        "Issues": "/issues",
+    }
+    return {name: home + path.format(version) for name, path in pages.items()} if home else {}
+
+
+VERSION = re.findall(r'^VERSION = "(.+)"', Path("plantar/common/version.py").read_text(encoding="utf-8"), re.MULTILINE)[
+    0
+]
+
+setup(
+    ext_modules=extensions(),
+    cmdclass={"build_ext": BuildWherePossible},
+    long_description=described(Path("README.md").read_text(encoding="utf-8"), HOME, VERSION),
+    long_description_content_type="text/markdown",
+    project_urls=addresses(HOME, VERSION),
+)
