@@ -3,7 +3,7 @@
     python examples/skin_any_model.py                      a box, with its load off the middle
     python examples/skin_any_model.py robot.xml BODY       your own model, on a floor if it has none
 
-Needs: pip install "plantar[sim]"
+Needs: pip install '.[sim]'
 """
 
 import sys

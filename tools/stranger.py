@@ -1,17 +1,18 @@
 """Try what README, docs and examples show as a stranger would: the wheel alone, an empty folder, nothing imported.
 
-python tools/stranger.py [--extras "" sim shoes sim,gym] [--wheel FILE] [--python PYTHON] [--only TEXT]
+python tools/stranger.py [--extras "" sim shoes sim,gym] [--wheel FILE] [--python PYTHON] [--only TEXT] [--limit S]
 
 The wheel is built once and installed in a fresh environment for each set of extras. Every fenced block of Python and of
 the shell, and every example, then runs in a process of its own, a page's in one folder, in order. Each must end in one
-of four ways: done; the line that gives the command for a missing library; the absence of a library that none of the
-installed extras brings; or one line on a file of the user's that is not there. Anything else is printed, and the exit
-code is 1.
+of five ways: done; still at work when its time is over; the line that gives the command for a library that none of the
+installed extras brings; the absence of one; or one line on a file of the user's that is not there. Anything else is
+printed, and the exit code is 1.
 """
 
 import argparse
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -26,8 +27,7 @@ sys.path.insert(0, str(ROOT))
 from plantar.common.optional_library import LIBRARIES  # noqa: E402
 
 PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
-LIMIT = 300  # s for one block
-_DEPENDENCY = "install it with: pip install '"
+_DEPENDENCY = re.compile(r"(\w+)[\w.]* is not installed; install it with: .*pip install .*'")
 _NEEDS_A_FILE = re.compile(
     r"(cannot be read|does not exist|No such file or directory|give a \w+|^usage: )", re.MULTILINE
 )
@@ -45,7 +45,9 @@ _NOT_RUN = (
     "#",
     "cat ",
 )
-_OTHER_LIBRARIES = {"torch", "jax", "mjlab", "pandas", "mine", "mink"}  # of pages on other people's packages, or yours
+_BROUGHT = {"shoes": {"OCP"}}  # by an extra's libraries in turn
+_OTHER_LIBRARIES = {"torch", "jax", "mjlab", "pandas", "mine", "mink", "unitree_sdk2py"}
+"""Of pages on other people's packages, or yours."""
 
 
 class Block(NamedTuple):
@@ -73,17 +75,22 @@ def lines_of(block: Block) -> list[str]:
 
 def absent_libraries(extras: str) -> set[str]:
     """Modules that an environment with some extras, such as "sim,gym", may lack."""
-    brought = {module for extra in ("", *extras.split(",")) for module in LIBRARIES.get(extra, {}).values()}
-    return {module for modules in LIBRARIES.values() for module in modules.values()} - brought | _OTHER_LIBRARIES
+    modules = {extra: {*found.values(), *_BROUGHT.get(extra, ())} for extra, found in LIBRARIES.items()}
+    brought = {module for extra in ("", *extras.split(",")) for module in modules.get(extra, ())}
+    return {module for found in modules.values() for module in found} - brought | _OTHER_LIBRARIES
 
 
 def outcome(done: subprocess.CompletedProcess[str], absent: set[str]) -> str:
-    """How a process ended: "done", "dependency", "library", "file" or "broken"; `absent`: libraries it may lack."""
+    """How a process ended: "done", "dependency", "library", "file" or "broken"; `absent`: libraries it may lack.
+
+    A line that asks for a library which is there would mend nothing when pasted: broken.
+    """
     if done.returncode in (0, 1) and "Traceback" not in done.stderr:
         return "done"  # 1: a walk that fell, or a check that does not hold
     last = done.stderr.strip().splitlines()[-1:] or [""]
-    if _DEPENDENCY in last[0]:
-        return "dependency"
+    missing = _DEPENDENCY.search(last[0])
+    if missing is not None:
+        return "dependency" if missing[1] in absent else "broken"
     module = re.search(r"No module named '(\w+)", last[0])
     if module is not None and module[1] in absent:
         return "library"
@@ -95,8 +102,9 @@ def outcome(done: subprocess.CompletedProcess[str], absent: set[str]) -> str:
 class Stranger:
     """An environment with the wheel, and what is tried in it; `broken` gathers what ended otherwise."""
 
-    def __init__(self, python: Path, extras: str) -> None:
+    def __init__(self, python: Path, extras: str, limit: float = 300.0) -> None:
         self._absent = absent_libraries(extras)
+        self._limit = limit
         clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL_ENV", "PLANTAR"))}
         path = f"{python.parent}{os.pathsep}{clean.get('PATH', '')}"
         self.python = python
@@ -129,24 +137,37 @@ class Stranger:
                 self._judge(f"{block.place} {line}", self._run(["sh", "-c", line], folder))
             return
         done = self._run([str(self.python), "-c", block.text], folder)
-        if "NameError" in done.stderr:  # it goes on where the block before it ended
+        if done is not None and "NameError" in done.stderr:  # it goes on where the block before it ended
             done = self._run([str(self.python), "-c", before + block.text], folder)
         self._judge(block.place, done)
 
-    def _run(self, command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    def _run(self, command: list[str], folder: Path) -> subprocess.CompletedProcess[str] | None:
+        pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        started = subprocess.Popen(
+            command, cwd=folder, env=self.environment, text=True, start_new_session=True, **pipes
+        )
         try:
-            return subprocess.run(
-                command, cwd=folder, env=self.environment, capture_output=True, text=True, timeout=LIMIT, input=""
-            )
+            out, err = started.communicate(timeout=self._limit)
         except subprocess.TimeoutExpired:
-            return subprocess.CompletedProcess(command, 0, "", "")  # long, and not broken until then
+            _end(started)
+            return None
+        return subprocess.CompletedProcess(command, started.returncode, out, err)
 
-    def _judge(self, place: str, done: subprocess.CompletedProcess[str]) -> None:
-        ended = outcome(done, self._absent)
+    def _judge(self, place: str, done: subprocess.CompletedProcess[str] | None) -> None:
+        ended = "at work" if done is None else outcome(done, self._absent)
         self.counts[ended] = self.counts.get(ended, 0) + 1
-        if ended == "broken":
+        if done is not None and ended == "broken":
             last = "\n    ".join(done.stderr.strip().splitlines()[-3:])
             self.broken.append(f"{place}: exit {done.returncode}\n    {last}")
+
+
+def _end(started: subprocess.Popen[str]) -> None:
+    """End a process with those that it started, its workers, which hold its pipes open."""
+    if os.name == "nt":
+        started.kill()
+    else:
+        os.killpg(started.pid, signal.SIGKILL)
+    started.communicate()
 
 
 def built_wheel(folder: Path) -> Path:
@@ -170,15 +191,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--extras", nargs="*", default=["", "sim", "shoes", "sim,gym"])
     parser.add_argument("--wheel", type=Path, help="built already")
-    parser.add_argument("--python", type=Path, help="of an environment that has it already, instead of fresh ones")
+    parser.add_argument("--python", type=Path, help="of an environment that has it with the first extras already")
     parser.add_argument("--only", default="", help="part of the place of what is tried")
+    parser.add_argument("--limit", type=float, default=300.0, metavar="S", help="for each block")
     given = parser.parse_args()
     broken = 0
     with tempfile.TemporaryDirectory() as made:
         wheel = None if given.python else given.wheel or built_wheel(Path(made))
-        for number, extras in enumerate([""] if wheel is None else given.extras):
+        for number, extras in enumerate(given.extras[:1] if wheel is None else given.extras):
             python = given.python if wheel is None else installed(wheel, extras, Path(made) / str(number))
-            stranger = Stranger(python.absolute(), extras)
+            stranger = Stranger(python.absolute(), extras, given.limit)
             stranger.try_pages(given.only)
             stranger.try_examples(given.only)
             print(f"[{extras or 'bare'}]", stranger.counts)

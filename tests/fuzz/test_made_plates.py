@@ -8,7 +8,7 @@ from plantar.gait.analysis.analyse import Analysis, analyse
 
 from .made_plates import Contact, Laboratory, made_laboratory, write_c3d
 
-pytest.importorskip("ezc3d", reason="ezc3d is not installed: pip install 'plantar[formats]'")
+pytest.importorskip("ezc3d", reason="ezc3d is not installed: pip install '.[formats]'")
 
 _Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
 LONG = [pytest.param(seed, marks=pytest.mark.long) for seed in range(12, 112)]

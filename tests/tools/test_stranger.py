@@ -18,6 +18,9 @@ def stranger():
     return module
 
 
+MISSING = "from plantar.errors import DependencyError as D; raise D('mujoco', 'sim')"
+
+
 @pytest.mark.parametrize(
     ("code", "extras", "ended"),
     [
@@ -27,6 +30,8 @@ def stranger():
             "",
             "done",
         ),
+        (MISSING, "", "dependency"),
+        (MISSING, "sim", "broken"),
         ("raise ModuleNotFoundError(\"No module named 'mujoco'\")", "", "library"),
         ("raise ModuleNotFoundError(\"No module named 'mujoco'\")", "sim", "broken"),
         ("raise ModuleNotFoundError(\"No module named 'scipy.special'\")", "", "broken"),
@@ -47,6 +52,13 @@ def test_a_block_that_goes_on_from_the_one_before_it_is_tried_with_it_and_a_brok
     tried._try_block(stranger.Block("page:3", "python", "print(y)\n"), "x = 1\n", tmp_path)
     assert tried.counts == {"done": 1, "broken": 1}
     assert tried.broken[0].startswith("page:3")
+
+
+def test_what_does_not_end_in_time_is_at_work_and_leaves_no_process(stranger, tmp_path):
+    tried = stranger.Stranger(Path(sys.executable), "", limit=1.0)
+    tried._try_block(stranger.Block("page:2", "sh", "sleep 60 | sleep 60\n"), "", tmp_path)
+    assert tried.counts == {"at work": 1}
+    assert tried.broken == []
 
 
 def test_every_page_has_blocks_or_none_that_are_missed(stranger):

@@ -9,7 +9,7 @@ from ..browser import visit
 from ..printing import printed_images
 from ..test_report_in_browser import READABLE, whole
 
-cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install 'plantar[formats]'")
+cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install '.[formats]'")
 
 pytestmark = pytest.mark.drawn
 
