@@ -17,7 +17,8 @@ from resumable import write_table
 
 from plantar.bench.tables import markdown_table
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.companion.experiments.multi_contact import MultiContact
 from plantar.sim.companion.runner import Companion
 from plantar.sim.run.scene_kind import open_scene
@@ -34,20 +35,20 @@ LIMITS = {2: 400.0, 13: 1500.0}
 class NeverSilent(DirectInteraction):
     """Direct interaction that works for every taxel and link, as if all were touched."""
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         return SkinInteraction.demand(self, robot, skin)
 
-    def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    def signal(self, skin: Reading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         return self.gain * skin.force, self.counted
 
 
-def reading(skin: BodySkin, names: list[str]) -> SkinReading:
+def reading(skin: BodySkin, names: list[str]) -> Reading:
     """The skin's reading when instances are touched."""
     force = np.zeros(len(skin))
     for name in names:
         patch = skin.patch(MultiContact.instances[name][0])
         force[skin.slices[patch.name]][patch.from_middle[:3]] = 2.0
-    return SkinReading(0.0, force, np.full(len(skin), np.inf), None)
+    return Reading(0.0, force, np.full(len(skin), np.inf), None)
 
 
 def main() -> None:

@@ -37,8 +37,9 @@ from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeight
 from plantar.gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
 from plantar.kernels.gait.command_frame import CommandFrame
 from plantar.mechanics.external_wrench import vrp_offset
-from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch
 from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
+from plantar.sensing.reading import Reading
 
 OMEGA, MASS, PERIOD = 3.44, 86.0, 0.005
 COUNT = 2000
@@ -208,9 +209,9 @@ def layer(rng):
         ]
     )
     poses = {link: (np.zeros(3), np.eye(3)) for link in skin.links}
-    still = SkinReading(0.0, np.zeros(2 * taxels), np.full(2 * taxels, np.inf))
+    still = Reading(0.0, np.zeros(2 * taxels), np.full(2 * taxels, np.inf))
     force = np.where(np.arange(2 * taxels) % 30 == 0, 3.0, 0.0)
-    pushed = SkinReading(0.0, force, np.full(2 * taxels, np.inf))
+    pushed = Reading(0.0, force, np.full(2 * taxels, np.inf))
     rules, about = NetWrenchRules(), np.zeros(3)
     yield "net wrench, 600 taxels, none active", lambda _: net_wrench(skin, still, poses, about, rules), range(COUNT)
     yield "net wrench, 600 taxels, 20 active", lambda _: net_wrench(skin, pushed, poses, about, rules), range(COUNT)

@@ -17,7 +17,6 @@ from plantar.gait.plan.plan_change import MovedStep
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
-from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 
 _NOTHING = read_only(np.zeros(2))
@@ -45,7 +44,7 @@ class Sensors(Record, frozen=True):
     accelerometer: NDArray[np.float64]
     readings: Mapping[Side, Reading]
     ankles: Mapping[Side, NDArray[np.float64]] = msgspec.field(default_factory=dict)
-    skin: SkinReading | None = None
+    skin: Reading | None = None
     links: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = msgspec.field(default_factory=dict)
     torques: NDArray[np.float64] | None = None
 

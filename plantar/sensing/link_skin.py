@@ -1,4 +1,4 @@
-"""Skin on a body's links: taxels, readings, wrenches."""
+"""Skin on a body's links: taxels, and wrenches of their readings."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -128,20 +128,6 @@ class BodySkin:
         for name in patches:
             found[self.slices[self.patch(name).name]] = True
         return found
-
-
-@dataclass(frozen=True)
-class SkinReading:
-    """One reading of a `BodySkin`, in its order; NaN without data.
-
-    `time`: time in s; `force`: normal force (N,) on each taxel in N, 0 or more; `distance`: distance (N,) of each taxel
-    in m; inf out of range; `temperature`: temperature (N,) of each taxel in degC; None if not measured.
-    """
-
-    time: float
-    force: NDArray[np.float64]
-    distance: NDArray[np.float64]
-    temperature: NDArray[np.float64] | None = None
 
 
 class LinkWrench(NamedTuple):

@@ -15,7 +15,8 @@ from plantar.common.settings.part import Part
 from plantar.common.settings.schema import number, share
 from plantar.errors import ReadingError
 from plantar.sensing.body_skin import active_cells, pseudo_force
-from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.sensing.link_skin import BodySkin, link_wrenches
+from plantar.sensing.reading import Reading
 
 
 class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("skin",)}):
@@ -39,7 +40,7 @@ class NetWrench(NamedTuple):
 
 def net_wrench(
     skin: BodySkin,
-    reading: SkinReading,
+    reading: Reading,
     poses: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]],
     point: ArrayLike,
     rules: NetWrenchRules,
@@ -56,7 +57,7 @@ def net_wrench(
         >>> inward = np.array([[[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]])  # z into the body: back to front
         >>> skin = BodySkin([SkinPatch("back", "torso", np.array([[-0.1, 0.0, 0.3]]), inward, np.array([1e-3]))])
         >>> torso = {"torso": (np.array([0.0, 0.0, 1.0]), np.eye(3))}
-        >>> pushed = SkinReading(0.0, np.array([40.0]), np.array([np.inf]))
+        >>> pushed = Reading(0.0, np.array([40.0]), np.array([np.inf]))
         >>> net_wrench(skin, pushed, torso, [0.0, 0.0, 0.9], NetWrenchRules()).wrench.tolist()
         [-40.0, 0.0, 0.0, 0.0, -16.0, 0.0]
     """

@@ -1,4 +1,4 @@
-"""One reading of a sole."""
+"""One reading of a skin: a sole, or patches on a body."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _FORCE = "reading field 'force'"
 @constructed_by_kernel
 @dataclass(frozen=True, eq=False, init=False)
 class Reading(ReadingFields):
-    """Measurements of one sole's n taxels at one time, read-only.
+    """Measurements of a skin's n taxels at one time, read-only: of one sole, or of a `BodySkin` in its order.
 
     Attributes:
         time: Time in s.
@@ -76,6 +76,11 @@ class Reading(ReadingFields):
             None if temperature is None else _field("temperature", temperature, shape),
             None if acceleration is None else _field("acceleration", acceleration, (*shape, 3)),
         )
+
+    @property
+    def distance(self) -> NDArray[np.float64]:
+        """Distance (n,) from each taxel to the nearest surface in m; inf out of range, or where it is not measured."""
+        return np.full(self.force.shape, np.inf) if self.proximity is None else self.proximity
 
     @classmethod
     def taken_over(cls, time: float, force: NDArray[np.float64], proximity: NDArray[np.float64] | None = None) -> Self:

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
 
-def check_task(task: Task, robot: RobotDynamics, skin: SkinReading | None = None) -> list[str]:
+def check_task(task: Task, robot: RobotDynamics, skin: Reading | None = None) -> list[str]:
     """What a task lacks, a sentence each; empty if nothing.
 
     Args:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.fusion.hierarchy import Fused, fuse
 from plantar.wholebody.tasks.task import Task
@@ -33,7 +33,7 @@ class TaskStack:
         self.silent = 0
 
     def step(
-        self, robot: RobotDynamics, skin: SkinReading | None = None, external: NDArray[np.float64] | None = None
+        self, robot: RobotDynamics, skin: Reading | None = None, external: NDArray[np.float64] | None = None
     ) -> Fused:
         """Ask every task for a `robot`'s dynamics now and the latest `skin` reading, and fuse.
 

@@ -4,7 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch
+from plantar.sensing.reading import Reading
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.base_avoidance import BaseAvoidance
 from plantar.wholebody.tasks.posture import BodyCompliance, Posture
@@ -40,7 +41,7 @@ def led_around(robot, stack, skin, loops):
         wanted = rotation.T @ (200.0 * (held - place) - 2.0 * rows @ robot.velocity)
         normal = np.maximum(np.hstack([wanted, -wanted]), 0.0)  # each taxel takes what pushes along its z
         pushed = rows.T @ (rotation @ (normal @ skin.normals))
-        torque = stack.step(robot, SkinReading(k * STEP, normal, np.full(6, np.inf))).torque
+        torque = stack.step(robot, Reading(k * STEP, normal, np.full(6, np.inf))).torque
         data.qfrc_applied[:] = torque + pushed
         mujoco.mj_step(model, data)
         energies.append(energies[-1] + STEP * pushed @ (robot.velocity + data.qvel) / 2.0)
@@ -125,7 +126,7 @@ def test_a_wall_that_is_seen_square_on_gives_back_what_it_took():
         skin = BodySkin([SkinPatch("p", "base", np.zeros((1, 3)), turn[None], np.ones(1), proximity_range=9.0)])
 
         def read(robot, slant=slant):  # a wall at x = -2 m, seen along -z
-            return SkinReading(0.0, np.zeros(1), np.array([(robot.pose("base")[0][0] + 2.0) / np.cos(slant)]))
+            return Reading(0.0, np.zeros(1), np.array([(robot.pose("base")[0][0] + 2.0) / np.cos(slant)]))
 
         works.append(work_around(robot, ProximityInteraction(skin, 10.0), read, np.random.default_rng(3), 0.5))
     (square, turnover), (slanted, _) = works

@@ -5,7 +5,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.sensing.link_skin import BodySkin, link_wrenches
+from plantar.sensing.reading import Reading
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.companion.dynamics import MujocoDynamics
@@ -87,17 +88,17 @@ class CompliantArm:
         self.read()
         self.step(None)
 
-    def step(self, measured: SkinReading | None) -> None:
+    def step(self, measured: Reading | None) -> None:
         """Set motor torques for a control period by encoders and the skin's `measured`."""
         external = None
         if measured is not None and self._skin is not None:
             self._force = self._force + self._share * (np.nan_to_num(measured.force) - self._force)
-            measured = SkinReading(measured.time, self._force, measured.distance)
+            measured = Reading(measured.time, self._force, measured.distance)
             external = self._external(self._skin, measured)
         torque = self._stack.step(self._robot, measured, external).torque
         self._world.data.ctrl[self._motors] = np.clip(torque, -self._efforts, self._efforts)
 
-    def _external(self, skin: BodySkin, measured: SkinReading) -> NDArray[np.float64] | None:
+    def _external(self, skin: BodySkin, measured: Reading) -> NDArray[np.float64] | None:
         total: NDArray[np.float64] | None = None
         for link, wrench, _ in link_wrenches(skin, measured.force, self._own & (measured.force >= skin.thresholds)):
             turned = (wrench.reshape(2, 3) @ self._robot.pose(link)[1].T).ravel()

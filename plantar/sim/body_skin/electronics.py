@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number, whole
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 
 
 class SkinElectronicsSettings(Settings):
@@ -52,8 +53,8 @@ class SkinElectronics:
         self._dead = self._rng.permutation(count)[: round(settings.dead_taxels * count)]
         self._levels = float(2**settings.bits - 1)
         self._due = -np.inf
-        self._waiting: deque[SkinReading] = deque()
-        self._delivered: SkinReading | None = None
+        self._waiting: deque[Reading] = deque()
+        self._delivered: Reading | None = None
 
     def read(
         self,
@@ -61,7 +62,7 @@ class SkinElectronics:
         force: NDArray[np.float64],
         distance: NDArray[np.float64],
         temperature: NDArray[np.float64] | None = None,
-    ) -> SkinReading:
+    ) -> Reading:
         """Returns the reading delivered at a `time` in s: the latest sample old enough, or the first; samples where
         due.
 
@@ -84,7 +85,7 @@ class SkinElectronics:
         force: NDArray[np.float64],
         distance: NDArray[np.float64],
         temperature: NDArray[np.float64] | None,
-    ) -> SkinReading:
+    ) -> Reading:
         s = self.settings
         levels = self._levels
         noise = self._rng.standard_normal((2, len(self._skin))) * s.noise
@@ -100,4 +101,4 @@ class SkinElectronics:
         for values in (measured_force, measured_distance, warmth):
             if values is not None:
                 values[self._dead] = np.nan
-        return SkinReading(time, measured_force, measured_distance, warmth)
+        return Reading(time, measured_force, measured_distance, warmth)

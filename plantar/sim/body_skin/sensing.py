@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.schema import number, switch
 from plantar.errors import RobotError
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.body_skin.electronics import SkinElectronics, SkinElectronicsSettings
 from plantar.sim.body_skin.obstacle import Obstacle
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
@@ -132,7 +133,7 @@ class SkinSensor:
         self.cast += looked
         self.skipped += len(self.skin) - looked
 
-    def read(self, data: Any) -> SkinReading:
+    def read(self, data: Any) -> Reading:
         """The reading of the last `apply`."""
         return self._electronics.read(float(data.time), self.force, self.distance, self.temperature)
 

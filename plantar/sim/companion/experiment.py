@@ -15,7 +15,8 @@ from plantar.common.settings.overrides import owner_of, put_settings, split_sett
 from plantar.common.settings.schema import Settings, choice, number
 from plantar.common.settings.unknown_keys import nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.errors import SceneError
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.lidar import LidarSettings
@@ -50,7 +51,7 @@ class CompanionControl(Settings):
 class Controller(Protocol):
     """What drives the machine."""
 
-    def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
+    def step(self, robot: RobotDynamics, reading: Reading) -> NDArray[np.float64]:
         """Returns joint torques (k,) in N m or N, gravity included, in the order of `robot.joints`.
 
         `robot` is at the measured state, `reading` that of the skin.

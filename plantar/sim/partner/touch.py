@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
 from plantar.sim.model.world import World
 
@@ -70,7 +71,7 @@ class Touch:
             partner.place(self._world)
         mujoco.mj_forward(self._world.model, self._world.data)
 
-    def read(self) -> SkinReading:
+    def read(self) -> Reading:
         """Read the skin."""
         return self.sensor.read(self._world.data)
 

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from plantar.common.sides import SIDES, Side
 from plantar.gait.controller import Sensors
 from plantar.kernels.sensors.noise_rows import SensedBody
-from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sim.model.contact_truth import ContactReader, FootContacts
 from plantar.sim.model.world import World
@@ -82,7 +81,7 @@ class SensorSuite:
         self._line: Delay[Sensors] | None = Delay(plant.sensor_delay) if plant and plant.sensor_delay else None
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
         self.readings: dict[Side, Reading] = {}
-        self.body_skin: Callable[[], SkinReading] | None = None
+        self.body_skin: Callable[[], Reading] | None = None
         self.body_links: Callable[[], Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]] | None = None
 
     def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[FootContacts, ...]:

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number
 from plantar.errors import InputError
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -39,7 +39,7 @@ class BaseAvoidance(Task):
         self._link = link
         self._half = np.asarray(half_size, dtype=float)
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         own = np.clip(self.obstacles, -self._half, self._half)
         apart = own - self.obstacles
         distance = np.sqrt(np.einsum("ij,ij->i", apart, apart))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number
 from plantar.mechanics.rotation import rotation_error
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -66,7 +66,7 @@ class CartesianPose(Task):
         """To the target position (3,), world frame, in m; zeros without."""
         return np.zeros(3) if self.target_position is None else self.target_position - self._place(robot)[0]
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         position, rotation = self._place(robot)
         if self.target_position is None:
             self.target_position = position.copy()

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -30,7 +30,7 @@ class CenterOfMass(Task):
         self.damping = 2.0 * float(np.sqrt(stiffness)) if damping is None else damping
         self._axes = list(axes)
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         position, jacobian, drift = robot.com()
         wanted = self.stiffness * (self.target - position)
         wanted += self.damping * (self.target_velocity - jacobian @ robot.velocity)

@@ -5,7 +5,8 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number
 from plantar.sensing.body_skin import patch_signal
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -43,7 +44,7 @@ class CompliantWrist(Task):
         unit = skin.unit_wrenches[self._own]
         self._arms = unit[:, 3:] - np.cross(np.asarray(point, dtype=float), unit[:, :3])  # about the middle
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         if skin is None:
             return None
         gains = self.gains

@@ -4,7 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -68,7 +69,7 @@ class ContactForce(Task):
         self._sum = 0.0
         self._last: float | None = None
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         if skin is None:
             return None
         error = self._error(skin, robot.time)
@@ -86,7 +87,7 @@ class ContactForce(Task):
         drift = outward @ robot.drift(self._link, self._point)[:3] + turning
         return Demand((outward @ jacobian[:3])[None], acceleration=np.array([wanted]), drift=np.array([drift]))
 
-    def _error(self, skin: SkinReading, time: float) -> float:
+    def _error(self, skin: Reading, time: float) -> float:
         measured = np.nan_to_num(skin.force[self._own], nan=0.0, posinf=0.0)
         seen = skin.distance[self._own]
         seen = seen[np.isfinite(seen)]

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -19,7 +19,7 @@ class PointForce(Task):
         self.point = np.asarray(point, dtype=float)
         self.force: NDArray[np.float64] | None = None
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         if self.force is None or not self.force.any():
             return None
         return Demand(robot.jacobian(self.link, self.point)[:3], force=self.force)
@@ -35,7 +35,7 @@ class AlongForce(Task):
         self.task = task
         self.damping = damping
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         asked = self.task.demand(robot, skin)
         if asked is None or asked.force is None:
             return asked

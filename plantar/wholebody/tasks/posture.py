@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -40,7 +40,7 @@ class Posture(Task):
         self._held = np.arange(len(self.target)) if joints is None else np.asarray(joints)
         self._rows: NDArray[np.float64] | None = None
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         held = robot.joints[self._held]
         if self._rows is None:
             self._rows = np.eye(len(robot.velocity))[held]
@@ -61,7 +61,7 @@ class BodyCompliance(Task):
         self.posture = posture
         self.yields = yields
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         torque = np.zeros(len(robot.velocity))
         for task in (self.posture, *self.yields):
             asked = task.demand(robot, skin)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.arguments import positive
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -43,7 +43,7 @@ class SelfCollision(Task):
         self._index = np.array(index, dtype=int).reshape(-1, 2)
         self._reach = np.array([a.radius + b.radius for a, b in pairs]) + margin
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         poses = [robot.pose(link) for link in self._links]
         origins = np.array([origin for origin, _ in poses])[self._link_of]
         rotations = np.array([rotation for _, rotation in poses])[self._link_of]

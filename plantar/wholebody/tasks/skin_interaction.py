@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from plantar.sensing.link_skin import BodySkin, LinkWrench, SkinReading, link_wrenches
+from plantar.sensing.link_skin import BodySkin, LinkWrench, link_wrenches
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task, wrench_demand
 
@@ -27,15 +28,15 @@ class SkinInteraction(Task):
         self.counted = skin.taxels_of(patches)
         self.damping = (0.0, 0.0)
 
-    def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    def signal(self, skin: Reading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """Force (N,) along taxels' z in N, and active taxels (N,), without NaN."""
         raise NotImplementedError
 
-    def wrenches(self, skin: SkinReading) -> list[LinkWrench]:
+    def wrenches(self, skin: Reading) -> list[LinkWrench]:
         """Wrench of each link with active taxels, about its origin, own frame (T 3.18)."""
         return link_wrenches(self.skin, *self.signal(skin))
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         found = None if skin is None else wrench_demand(robot, self.wrenches(skin))
         if found is None or found.force is None or self.damping == (0.0, 0.0):
             return found
@@ -58,12 +59,12 @@ class DirectInteraction(SkinInteraction):
         own = np.flatnonzero(self.counted)
         self._span = slice(own[0], own[-1] + 1) if len(own) else slice(0)
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         if skin is None or not (skin.force[self._span] >= self._thresholds[self._span]).any():
             return None  # before anything else: most of a body is not touched
         return super().demand(robot, skin)
 
-    def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    def signal(self, skin: Reading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         return self.gain * skin.force, skin.force >= self._thresholds
 
 
@@ -77,7 +78,7 @@ class PressureInteraction(DirectInteraction):
         super().__init__(skin, patches=patches)
         self.sensitivity = sensitivity
 
-    def wrenches(self, skin: SkinReading) -> list[LinkWrench]:
+    def wrenches(self, skin: Reading) -> list[LinkWrench]:
         """Amplified wrench w_P of each touched link, own frame (T 3.26-3.27)."""
         found = super().wrenches(skin)
         areas = [float(self.skin.areas[w.taxels].sum()) for w in found]
@@ -107,7 +108,7 @@ class ProximityInteraction(SkinInteraction):
         self.sensing_range = np.inf if sensing_range is None else sensing_range
         self._ranges = np.where(self.counted, skin.ranges, 0.0)
 
-    def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    def signal(self, skin: Reading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         depth = np.minimum(self._ranges, self.sensing_range) - np.maximum(skin.distance, 0.0)
         return self.stiffness * depth, depth > 0.0
 
@@ -126,7 +127,7 @@ class TemperatureInteraction(SkinInteraction):
         self.gain = gain
         self._thresholds = np.where(self.counted, threshold, np.inf)
 
-    def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    def signal(self, skin: Reading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         if skin.temperature is None:
             return self._thresholds, np.zeros(len(self.skin), dtype=bool)
         above = skin.temperature - self._thresholds

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.mechanics.wrench_cone import Rectangle
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -48,7 +48,7 @@ class Support(Task):
             raise InputError("a support needs one contact at least")
         self.contacts = dict(contacts)
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         jacobian = np.vstack([robot.jacobian(c.link, c.point)[: c.rows] for c in self.contacts.values()])
         drift = np.concatenate([robot.drift(c.link, c.point)[: c.rows] for c in self.contacts.values()])
         return Demand(jacobian, acceleration=np.zeros(len(drift)), drift=drift)

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from plantar.common.settings.schema import Settings, number
 from plantar.errors import InputError
 from plantar.mechanics.easing import minimum_jerk
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.task import Demand, Task
@@ -66,7 +67,7 @@ class TactileGuidance(Task):
         self._stretch = np.zeros(3)
         self._last: NDArray[np.float64] | None = None
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         if skin is None:
             return None
         gains = self.gains

@@ -6,7 +6,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sensing.link_skin import LinkWrench, SkinReading
+from plantar.sensing.link_skin import LinkWrench
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 
 
@@ -29,7 +30,7 @@ class Demand(NamedTuple):
 class Task(Protocol):
     """A task; new ones are one file, one class."""
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         """Current demand; None saves its computation (T 3.24).
 
         Args:

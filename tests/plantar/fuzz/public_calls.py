@@ -57,7 +57,7 @@ INNER: frozenset[str] = frozenset(
         "percept.Percept.summed",
         "leg_inertia.LegInertia.base_acceleration",
         *("wrench.wrench_in_frame", "contact.Contact", "contact.Contact.wrench_in_world"),
-        *("link_skin.LinkWrench", "link_skin.SkinReading", "link_skin.link_wrenches", "net_wrench.NetWrench"),
+        *("link_skin.LinkWrench", "link_skin.link_wrenches", "net_wrench.NetWrench"),
         *("within_limits.Box", "within_limits.Box.of", "within_limits.nearest_within"),
         *(f"wrench_distribution.WrenchDistribution.{name}" for name in ("program", "solve")),
         "wrench_distribution.Program",
@@ -509,7 +509,7 @@ def _of_net_wrench() -> Call:
         partial(
             net_wrench.net_wrench,
             skin=link_skin.BodySkin([patch]),
-            reading=link_skin.SkinReading(0.0, np.full(1, 4.0), np.full(1, np.inf)),
+            reading=Reading(0.0, np.full(1, 4.0), np.full(1, np.inf)),
             poses={"torso": (np.zeros(3), np.eye(3))},
             rules=net_wrench.NetWrenchRules(),
         ),

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from plantar.errors import ReadingError
-from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch
 from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
+from plantar.sensing.reading import Reading
 
 RANGE = 0.05
 
@@ -45,7 +46,7 @@ def test_it_is_the_sum_over_taxels_in_the_world():
             pseudo = np.nan_to_num(force[i]) + 2.0 * near
             push = rotation @ patch.rotations[k] @ [0.0, 0.0, pseudo]  # K 4 with z into the body
             wanted += [*push, *np.cross(origin + rotation @ patch.positions[k] - com, push)]
-    found = net_wrench(skin, SkinReading(0.0, force, distance), poses, com, rules)
+    found = net_wrench(skin, Reading(0.0, force, distance), poses, com, rules)
     assert found.taxels.tolist() == counted
     assert found.wrench == pytest.approx(wanted, abs=1e-12)
 
@@ -54,7 +55,7 @@ def test_what_is_about_to_touch_counts_and_with_the_printed_active_set_would_not
     skin, poses = body()
     distance = np.full(len(skin), np.inf)
     distance[skin.slices["hand"]] = 0.01
-    reading = SkinReading(0.0, np.zeros(len(skin)), distance)
+    reading = Reading(0.0, np.zeros(len(skin)), distance)
     found = net_wrench(skin, reading, poses, np.zeros(3), NetWrenchRules())
     assert found.taxels.tolist() == list(range(*skin.slices["hand"].indices(len(skin))))
     assert np.linalg.norm(found.wrench[:3]) > 0.1
@@ -65,7 +66,7 @@ def test_what_is_about_to_touch_counts_and_with_the_printed_active_set_would_not
 def test_each_link_that_moves_carries_its_wrench_with_it():
     skin, poses = body()
     rng = np.random.default_rng(2)
-    reading = SkinReading(0.0, rng.uniform(0.0, 5.0, len(skin)), np.full(len(skin), np.inf))
+    reading = Reading(0.0, rng.uniform(0.0, 5.0, len(skin)), np.full(len(skin), np.inf))
     before = net_wrench(skin, reading, poses, np.zeros(3), NetWrenchRules()).wrench
     turn, shift = turned(rng, 1)[0], rng.normal(size=3)
     moved = {link: (turn @ p + shift, turn @ r) for link, (p, r) in poses.items()}
@@ -75,18 +76,18 @@ def test_each_link_that_moves_carries_its_wrench_with_it():
 
 def test_silence_is_no_push():
     skin, _ = body()
-    quiet = SkinReading(0.0, np.full(len(skin), np.nan), np.full(len(skin), np.nan))
+    quiet = Reading(0.0, np.full(len(skin), np.nan), np.full(len(skin), np.nan))
     found = net_wrench(skin, quiet, {}, np.zeros(3), NetWrenchRules())
     assert found.wrench.tolist() == [0.0] * 6
     assert len(found.taxels) == 0
-    loud = SkinReading(0.0, np.full(len(skin), 1e4), np.zeros(len(skin)))
+    loud = Reading(0.0, np.full(len(skin), 1e4), np.zeros(len(skin)))
     assert np.isfinite(net_wrench(skin, loud, body()[1], np.zeros(3), NetWrenchRules()).wrench).all()
 
 
 def test_wrong_arguments_are_named():
     skin, poses = body()
-    reading = SkinReading(0.0, np.ones(len(skin)), np.zeros(len(skin)))
+    reading = Reading(0.0, np.ones(len(skin)), np.zeros(len(skin)))
     with pytest.raises(ReadingError, match="link 'leg' feels something and has no pose; given: arm, torso"):
         net_wrench(skin, reading, {k: poses[k] for k in ("arm", "torso")}, np.zeros(3), NetWrenchRules())
     with pytest.raises(ReadingError, match="the skin has 13 taxels"):
-        net_wrench(skin, SkinReading(0.0, np.ones(2), np.ones(2)), poses, np.zeros(3), NetWrenchRules())
+        net_wrench(skin, Reading(0.0, np.ones(2), np.ones(2)), poses, np.zeros(3), NetWrenchRules())

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.model.world import World
@@ -19,7 +19,7 @@ def worn():
     return left_arm()
 
 
-def settled(world: World, arm: CompliantArm, reading: SkinReading | None, wrench: np.ndarray, link: str) -> np.ndarray:
+def settled(world: World, arm: CompliantArm, reading: Reading | None, wrench: np.ndarray, link: str) -> np.ndarray:
     """How far (k,) in rad the joints are out of the posture after 2.5 s with a wrench (6,) on a link."""
     world.data.xfrc_applied[world.model.body(link).id] = wrench
     for k in range(2500):
@@ -42,7 +42,7 @@ def pressed(worn: WornArm, skin: bool = True, **settings: float) -> tuple[np.nda
     torque = force @ jacobian(world, link, worn.skin.positions[taxel])
     forces = np.zeros(len(worn.skin))
     forces[taxel] = FORCE
-    reading = SkinReading(0.0, forces, np.full(len(worn.skin), np.inf)) if skin else None
+    reading = Reading(0.0, forces, np.full(len(worn.skin), np.inf)) if skin else None
     moment = np.cross(place - body.xipos, force)
     return settled(world, arm, reading, np.concatenate([force, moment]), link), torque
 

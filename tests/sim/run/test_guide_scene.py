@@ -6,7 +6,7 @@ import pytest
 from plantar.errors import SceneError
 from plantar.mechanics.external_wrench import external_acceleration
 from plantar.recordings.recording import read_mcap
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
 
@@ -38,7 +38,7 @@ def test_a_force_on_the_arm_counts_where_the_arm_is():
     taxel = skin.slices["left_lower_arm"].start + 11
     force = np.zeros(len(skin))
     force[taxel] = 12.0
-    felt = controller.estimation.push_on_skin(reading.changed(skin=SkinReading(0.0, force, np.full(len(skin), np.inf))))
+    felt = controller.estimation.push_on_skin(reading.changed(skin=Reading(0.0, force, np.full(len(skin), np.inf))))
     body = simulation.world.data.body(skin.links[skin.link_of[taxel]])
     turn = body.xmat.reshape(3, 3)
     push, place = 12.0 * turn @ skin.normals[taxel], body.xpos + turn @ skin.positions[taxel]

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import plantar.wholebody.tasks
-from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch
+from plantar.sensing.reading import Reading
 from plantar.wholebody.tasks.base_avoidance import BaseAvoidance
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose
 from plantar.wholebody.tasks.center_of_mass import CenterOfMass
@@ -61,7 +62,7 @@ def along_normal(before, after, middle):
 
 
 def along_push(before, after, middle, skin):
-    reading = SkinReading(0.0, np.ones(6), np.full(6, np.inf))
+    reading = Reading(0.0, np.ones(6), np.full(6, np.inf))
     wrenches = DirectInteraction(skin).demand(middle, reading).force.reshape(2, 6)
     moved = links_that_feel(before, after).reshape(2, 6)
     return (wrenches * moved).sum(1) / np.linalg.norm(wrenches[:, :3], axis=1)
@@ -161,7 +162,7 @@ def test_jacobian_and_drift_are_derivatives(random_chain, skin, name, floating):
         position = middle.copy()
         mujoco.mj_integratePos(model, position, velocity, step)
         robot.update(position, velocity, 0.0)
-    reading = SkinReading(0.0, np.ones(6), np.full(6, 0.02), np.full(6, 60.0))
+    reading = Reading(0.0, np.ones(6), np.full(6, 0.02), np.full(6, 60.0))
     before, now, after = (make(robot, skin).demand(robot, reading) for robot in robots)
     given = (robots[0], robots[2], robots[1], skin)
     moving = moves(*given[: moves.__code__.co_argcount]) / (2.0 * STEP)

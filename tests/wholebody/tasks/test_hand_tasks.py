@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch
+from plantar.sensing.reading import Reading
 from plantar.wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
 from plantar.wholebody.tasks.compliant_wrist import CompliantWrist, WristGains
 from plantar.wholebody.tasks.contact_force import ContactForce, ContactGains
@@ -20,7 +21,7 @@ def skin():
 
 
 def felt(force=0.0, distance=np.inf, time=0.0):
-    return SkinReading(time, np.full(4, force / 4), np.full(4, distance))
+    return Reading(time, np.full(4, force / 4), np.full(4, distance))
 
 
 def task(skin, **gains):
@@ -119,11 +120,11 @@ def test_a_wrist_yields_to_a_moment_and_its_own_turn_is_damped(robot, skin):
     """A 10 corrected: pressed at +y of its face, along -x, it is turned by +z; what turns already is braked."""
     wrist = CompliantWrist(skin, "face", np.array([0.1, 0.0, 0.0]), WristGains(inertia=0.5, damping=3.0, gain=2.0))
     wrist.weight = 1.0
-    one_side = SkinReading(0.0, np.array([0.0, 0.0, 4.0, 0.0]), np.full(4, np.inf))
+    one_side = Reading(0.0, np.array([0.0, 0.0, 4.0, 0.0]), np.full(4, np.inf))
     demand = wrist.demand(robot, one_side)
     moment = np.cross([0.0, 0.02, 0.0], [-4.0, 0.0, 0.0])
     assert wrist.moment == pytest.approx(moment)
     assert demand.acceleration == pytest.approx(2.0 * moment / 0.5)
     robot.update(np.zeros(3), np.array([0.0, 0.0, 0.7]), 0.1)
-    turning = wrist.demand(robot, SkinReading(0.0, np.zeros(4), np.full(4, np.inf)))
+    turning = wrist.demand(robot, Reading(0.0, np.zeros(4), np.full(4, np.inf)))
     assert turning.acceleration == pytest.approx([0.0, 0.0, -3.0 * 0.7 / 0.5])

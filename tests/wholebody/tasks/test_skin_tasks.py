@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch
+from plantar.sensing.reading import Reading
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.skin_interaction import (
     DirectInteraction,
@@ -51,7 +52,7 @@ def skin():
 def reading(force=None, distance=None, temperature=None):
     force = np.zeros(7) if force is None else np.asarray(force, dtype=float)
     distance = np.full(7, np.inf) if distance is None else np.asarray(distance, dtype=float)
-    return SkinReading(0.0, force, distance, temperature)
+    return Reading(0.0, force, distance, temperature)
 
 
 def torque_of(demand):

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch
+from plantar.sensing.reading import Reading
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.wholebody.tasks.tactile_guidance import GuidanceGains, TactileGuidance
 
@@ -40,7 +41,7 @@ def skin():
 def asked(task, robot, forces, bend=1.5, moved=0.0, speed=0.0):
     """What a touch with such forces asks of the hand while the elbow is bent so far and the shoulder has moved."""
     robot.update(np.array([moved, bend, 0.0]), np.array([speed, 0.0, 0.0]), 0.0)
-    return task.demand(robot, SkinReading(0.0, np.asarray(forces, dtype=float), np.full(4, np.inf))).acceleration
+    return task.demand(robot, Reading(0.0, np.asarray(forces, dtype=float), np.full(4, np.inf))).acceleration
 
 
 def pressed(robot, force, bend):

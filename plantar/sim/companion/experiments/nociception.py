@@ -13,7 +13,8 @@ import numpy as np
 
 from plantar.common.settings.schema import Settings, number, switch
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
@@ -126,7 +127,7 @@ class Nociception(StandingExperiment):
         self._control.after = self._after
         return self._control
 
-    def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
+    def _before(self, robot: MujocoDynamics, measured: Reading) -> None:
         strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(measured)]
         before = self._virtual
         self._virtual = max(strongest, default=0.0)

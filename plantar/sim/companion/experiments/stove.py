@@ -14,7 +14,8 @@ import numpy as np
 
 from plantar.common.settings.schema import number, switch
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.dynamics import MujocoDynamics
@@ -133,7 +134,7 @@ class Stove(StandingExperiment):
         self._control.after = self._transition.blend
         return self._control
 
-    def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
+    def _before(self, robot: MujocoDynamics, measured: Reading) -> None:
         self._hand.target_position = self._target(robot.time)
         silent = not self.control.temperature or not self._heat.wrenches(measured)
         if silent != self._silent:

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.schema import choice, number, switch
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.machine import Machine
 from plantar.wholebody.behaviours.contact_phases import ContactPhases
@@ -139,7 +140,7 @@ class HandController(Controller):
         """Take the nearest points (m, 2) of obstacles, base frame, in m."""
         self._keep_clear.obstacles = points
 
-    def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
+    def step(self, robot: RobotDynamics, reading: Reading) -> NDArray[np.float64]:
         self.wrist.weight = self.phases.weight(robot.time)
         self.force.weight = self.wrist.weight
         self.force.target_force = self.wanted_force
@@ -148,7 +149,7 @@ class HandController(Controller):
         torque = self._stack.step(robot, reading, self._known(robot, reading)).torque
         return self._change.blend(torque, robot.time)
 
-    def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
+    def _known(self, robot: RobotDynamics, reading: Reading) -> NDArray[np.float64] | None:
         # Generalized force (n,) of wanted force and arm skin.
         if not self._feeds_forward:
             return None
@@ -172,7 +173,7 @@ class _BentElbow(Task):
         self._low, self._high = np.radians([settings.elbow_least, settings.elbow_most]).tolist()
         self._stiffness = settings.elbow_stiffness
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         bend = float(robot.joint_positions[self._joint])
         missing = min(max(bend, self._low), self._high) - bend
         if missing == 0.0:
@@ -189,6 +190,6 @@ class _Still(Task):
         self._wrist = wrist
         self._pose = CartesianPose("hand", np.zeros(3), rows="orientation")
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         self._wrist.demand(robot, skin)
         return self._pose.demand(robot, skin)

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.schema import choice, number
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.machine import Machine
 from plantar.wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact
@@ -111,7 +112,7 @@ class ReachController(Controller):
         )
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
-    def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
+    def step(self, robot: RobotDynamics, reading: Reading) -> NDArray[np.float64]:
         self.signs = self._look(robot, reading)
         if self.settings.policy == "intentional" and self.policy.update(self.signs, robot.time):
             self._blend.begin(robot.time)
@@ -122,7 +123,7 @@ class ReachController(Controller):
         self._stack.levels = [list(level) for level in levels]
         return self._blend.blend(self._stack.step(robot, reading).torque, robot.time)
 
-    def _look(self, robot: RobotDynamics, reading: SkinReading) -> ContactSigns:
+    def _look(self, robot: RobotDynamics, reading: Reading) -> ContactSigns:
         # Signs of skin and tip (T Table 1), smoothed against flicker.
         period = robot.time - self._time if np.isfinite(self._time) else 0.0
         self._time = robot.time

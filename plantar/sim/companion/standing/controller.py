@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.schema import number, switch
 from plantar.mechanics.lip import GRAVITY
-from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.sensing.link_skin import BodySkin, link_wrenches
+from plantar.sensing.reading import Reading
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import CompanionControl, Controller
 from plantar.sim.companion.standing.stance import Stance
@@ -60,7 +61,7 @@ class StandingController(Controller):
         balance: CenterOfMass | None,
         skin: BodySkin,
         settings: StandingControl,
-        before: Callable[[MujocoDynamics, SkinReading], None] | None = None,
+        before: Callable[[MujocoDynamics, Reading], None] | None = None,
     ) -> None:
         self.stance = stance
         self.skin = skin
@@ -79,11 +80,11 @@ class StandingController(Controller):
         self._shift = np.zeros(2)
         self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
 
-    def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
+    def step(self, robot: Any, reading: Reading) -> NDArray[np.float64]:
         began = perf_counter()
         self.stance.locate(robot)
         external = None
-        measured: SkinReading | None = None
+        measured: Reading | None = None
         if self.settings.skin:
             measured = self._filtered(reading)
             external, moment = self._external(robot, measured)
@@ -97,7 +98,7 @@ class StandingController(Controller):
         self.took.append(1e6 * (perf_counter() - began))
         return self.torque
 
-    def _filtered(self, reading: SkinReading) -> SkinReading:
+    def _filtered(self, reading: Reading) -> Reading:
         # The reading with low-passed forces, against beating.
         force = reading.force
         if np.isnan(force.sum()):
@@ -108,10 +109,10 @@ class StandingController(Controller):
         if warmth is not None:
             slow = self.settings.period / (self.settings.period + _WARMING)
             self._warmth = warmth.copy() if self._warmth is None else self._warmth + slow * (warmth - self._warmth)
-        return SkinReading(reading.time, self._force, reading.distance, self._warmth)
+        return Reading(reading.time, self._force, reading.distance, self._warmth)
 
     def _external(
-        self, robot: MujocoDynamics, measured: SkinReading
+        self, robot: MujocoDynamics, measured: Reading
     ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
         # Generalized force (n,) on the skin, or None; moments (2,) at the feet.
         wrenches = link_wrenches(self.skin, measured.force, measured.force >= self.skin.thresholds)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.tasks.task import Demand, Task
 
@@ -25,7 +25,7 @@ class JointRange(Task):
         self.damping = np.broadcast_to(np.asarray(damping, dtype=float), self.low.shape)
         self._rows: NDArray[np.float64] | None = None
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+    def demand(self, robot: RobotDynamics, skin: Reading | None) -> Demand | None:
         positions = robot.joint_positions
         used = np.maximum(self.low - positions, 0.0) - np.maximum(positions - self.high, 0.0)
         near = np.flatnonzero(used)

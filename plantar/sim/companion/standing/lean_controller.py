@@ -10,7 +10,8 @@ from plantar.geometry.polygon import convex_hull
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.mechanics.wrench_distribution import DistributionWeights
-from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.reading import Reading
 from plantar.sim.companion.experiment import Controller
 from plantar.sim.companion.standing.controller import StandingControl
 from plantar.sim.companion.standing.standing import StandingExperiment
@@ -117,7 +118,7 @@ class LeanController(Controller):
         self._middle = np.mean(list(self.stance.places.values()), axis=0)
         self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
-    def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
+    def step(self, robot: Any, reading: Reading) -> NDArray[np.float64]:
         self.stance.locate(robot)
         self._see_ground(reading)
         measured = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
@@ -202,7 +203,7 @@ class LeanController(Controller):
             total += SHARES[link]
         return places / total
 
-    def _see_ground(self, reading: SkinReading) -> None:
+    def _see_ground(self, reading: Reading) -> None:
         # Find each sole's supported part, and limit its load.
         for link, middle in self.stance.feet.items():
             own = self.skin.slices[f"{link}_sole"]
