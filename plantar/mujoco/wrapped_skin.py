@@ -88,8 +88,7 @@ def wrapped_skin(
     where = f"the skin of body '{name}'"
     own_side = side or _side_of(model, body)
     is_right = own_side == "right"
-    low = np.min([s.bounds()[0] for s in surfaces], axis=0)
-    high = np.max([s.bounds()[1] for s in surfaces], axis=0)
+    low, high = _bounds(surfaces)
     first = float((high - low).max()) / _COARSE
     try:
         coarse = _chosen(surfaces, first, is_right, chosen, where)
@@ -162,13 +161,18 @@ def _side_of(model: Any, body: int) -> Side:
     return "left" if float(from_root @ data.xmat[root].reshape(3, 3)[:, 1]) > -1e-9 else "right"
 
 
+def _bounds(surfaces: list[GeomSurface]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lowest and highest corner (3,) of a box about surfaces."""
+    boxes = np.array([s.bounds() for s in surfaces])
+    return boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
+
+
 def _chosen(surfaces: list[GeomSurface], pitch: float, is_right: bool, region: Region, where: str) -> Samples:
     """The samples in a region; RobotError for none."""
     every = sampled(surfaces, pitch, is_right)
     found = every.part(region.has(every.points, every.normals))
     if not len(found.points):
-        low = every.points.min(axis=0).round(4).tolist()
-        high = every.points.max(axis=0).round(4).tolist()
+        low, high = (corner.round(4).tolist() for corner in _bounds(surfaces))
         raise RobotError(
             f"{where}: no surface lies there that faces so; its shapes reach from {low} to {high} m in its frame; "
             "allowed: outward, around, region and polygon that have a part of it in common"

@@ -3,7 +3,7 @@ from .foot_contacts cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 from . cimport pressed_patch
 
-cdef int _CYLINDER, _BOX
+cdef int _CYLINDER, _BOX, _TRIES
 cdef double _LEVEL, _EXACT
 
 @cython.final

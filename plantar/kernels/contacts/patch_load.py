@@ -11,6 +11,7 @@ __all__ = ["PatchLoad"]
 _CYLINDER = 5  # of mjtGeom
 _BOX = 6
 _LEVEL = 1e-9  # of a cosine or of a metre: rounding, where a place is on the border of a region
+_TRIES = 8  # ridges in a Newton step: a contact that cells lie about on all sides has a pressure of that moment
 _EXACT = 1e-9  # of the load times the patch's extent: how exactly the taxels have the moment
 
 
@@ -115,14 +116,14 @@ class PatchLoad:
             nx = -seen.normals[k, 0]
             ny = -seen.normals[k, 1]
             nz = -seen.normals[k, 2]
-            half = 0.5 * gap if gap < 0.0 else 0.0
+            half = 0.5 * gap  # a contact's place is halfway between the surfaces
             x = seen.vectors[row, 0] - half * nx
             y = seen.vectors[row, 1] - half * ny
             z = seen.vectors[row, 2] - half * nz
             self.place[0] = x
             self.place[1] = y
             self.place[2] = z
-            self._find_face(self.geom_rows[geom], nx, ny, nz, -half)
+            self._find_face(self.geom_rows[geom], nx, ny, nz, abs(half))
             if not self._has(x, y, z):
                 continue
             self.touched = True
@@ -270,7 +271,7 @@ class PatchLoad:
         b = 0.0
         c = 0.0
         if _surrounded(rows, count, -cu / scale, -cv / scale):
-            found, a, b, c = pressed_patch._tilted(rows, count, -cu / scale, -cv / scale)
+            found, a, b, c = pressed_patch._tilted(rows, count, -cu / scale, -cv / scale, _TRIES)
         if not found:
             a = 1.0
             b = 0.0

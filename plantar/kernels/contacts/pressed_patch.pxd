@@ -28,7 +28,9 @@ cdef (double, double, double) _centred(double[:, ::1] rows, Py_ssize_t cells, do
     a=double, b=double, c=double, step_a=double, step_b=double, step_c=double, slope=double, value=double, rate=double,
     m00=double, m01=double, m02=double, m11=double, m12=double, m22=double, determinant=double, ridge=double
 )
-cdef (bint, double, double, double) _tilted(double[:, ::1] rows, Py_ssize_t cells, double x, double y) noexcept
+cdef (bint, double, double, double) _tilted(
+    double[:, ::1] rows, Py_ssize_t cells, double x, double y, Py_ssize_t tries
+) noexcept
 
 @cython.locals(x=double, y=double)
 cpdef tuple patch_key(points, double grid)

@@ -128,11 +128,12 @@ def _centred(rows, cells, least):
     return cx, cy, scale
 
 
-def _tilted(rows, cells, x, y):
+def _tilted(rows, cells, x, y, tries):
     """Pressure max(0, a + b x + c y) of a unit load at (x, y): whether found, a, b, c.
 
     Damped Newton steps on 1/2 sum w max(0, p)^2 - load . field. Rows (at least cells, 3) are weight, in sum 1, and
-    scaled place of cells.
+    scaled place of cells; `tries`: ridges that are tried where too few cells carry for a step, 3, or more where a
+    pressure is known to exist.
     """
     a = 1.0
     b = 0.0
@@ -178,7 +179,7 @@ def _tilted(rows, cells, x, y):
             continue
         value = energy
         ridge = 1e-14 * (m00 + m11 + m22) + 1e-300
-        for _ in range(3):
+        for _ in range(tries):
             determinant, step_a, step_b, step_c = _solved(
                 m00 + ridge, m01, m02, m11 + ridge, m12, m22 + ridge, r0, r1, r2
             )
@@ -277,7 +278,7 @@ class PressedPatch:
         rows = np.array(self.u)
         for i in range(self.area.shape[0]):
             rows[i, 0] = self.area[i]
-        _found, a, b, c = _tilted(rows, self.area.shape[0], self.x, self.y)
+        _found, a, b, c = _tilted(rows, self.area.shape[0], self.x, self.y, 3)
         total = self._press(a, b, c)
         if not (total > 0.0 and self.part(force, out)):
             for i in range(self.area.shape[0]):

@@ -231,7 +231,7 @@ class TaxelLoad:
         cx, cy, scale = pressed_patch._centred(rows, cells, 1e-4)
         at_x = (x - cx) / scale
         at_y = (y - cy) / scale
-        found, a, b, c = pressed_patch._tilted(rows, cells, at_x, at_y)
+        found, a, b, c = pressed_patch._tilted(rows, cells, at_x, at_y, 3)
         if found:
             cells = 0
             for i in range(self.areas.shape[0]):

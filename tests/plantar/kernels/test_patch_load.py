@@ -6,6 +6,8 @@ import pytest
 
 from plantar.kernels import python_form
 from plantar.kernels.contacts import foot_contacts, patch_load
+from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
+from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.mujoco import Skin
 
 MESH = '<mesh name="m" vertex="-.1 -.05 0 .1 -.05 0 .12 .04 0 -.1 .05 0 -.08 0 .06 .05 0 .05"/>'
@@ -51,3 +53,54 @@ def test_compiled_form_is_the_interpreted_one(way):
         assert np.array_equal(one, other)
         assert one.any()
     assert np.abs(found[0][0].sum(axis=0) - found[0][3][:3]).max() < 1e-12 * np.abs(forces).sum()
+
+
+def shared(places, areas, force):
+    """The load of one contact at the origin, on flat cells about it that reach 1 m."""
+    count = len(places)
+    normals = np.tile([0.0, 0.0, 1.0], (count, 1))
+    limits = np.array([0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 2.0, *[-np.inf] * 3, *[np.inf] * 3])
+    sphere = int(mujoco.mjtGeom.mjGEOM_SPHERE)
+    load = PatchLoad(
+        places, normals, areas, 1.0, np.array([0], dtype=np.int32), np.array([sphere], dtype=np.int32),
+        np.array([[0.0, 0.0, 0.0, *np.eye(3).ravel()]]), np.full((1, 3), 0.1), np.zeros(2, dtype=np.int32),
+        np.zeros((0, 4)), limits, np.zeros((0, 2)), np.eye(3),
+    )  # fmt: skip
+    contacts = FootContacts(np.ones(1, dtype=np.uint8))
+    vectors = np.array([[0.0, 0.0, 0.0], force, [0.0, 0.0, 0.0]])
+    contacts.take(np.zeros((1, 2), dtype=np.int32), vectors, np.array([0.0]), np.array([1], dtype=np.uint8))
+    np.asarray(contacts.normals)[0] = [0.0, 0.0, 1.0]
+    seen = ContactsInSole()
+    seen.look_from(np.zeros(3), np.eye(3))
+    load.press(contacts, seen, 1e-3)
+    return load
+
+
+def test_a_touch_that_only_three_cells_can_carry_keeps_its_center():
+    """From Baxter's wrist: Newton's second step leaves one cell loaded, which alone determines no tilt."""
+    places = np.array([
+        [-0.148260674, 0.150173836, 0], [0.431497537, 0.540451643, 0], [0.214990744, -0.046794531, 0],
+        [-0.337399455, 0.869364199, 0], [-0.865680014, -0.162230332, 0],
+    ])  # fmt: skip
+    weights = np.array([0.609229322, 0.175485603, 0.070983243, 0.042258334, 0.102043498])
+    load = shared(places, weights / (1.0 - (places**2).sum(axis=1)), [1.0, 2.0, 10.0])
+    part = load.vectors[:, 2] / 10.0
+    assert np.flatnonzero(part).tolist() == [0, 2, 4]
+    assert np.abs(part @ places).max() < 1e-11
+    assert np.abs(load.vectors.sum(axis=0) - [1.0, 2.0, 10.0]).max() < 1e-12
+
+
+def test_drawn_cells_about_a_touch_keep_its_center():
+    rng = np.random.default_rng(4)
+    tried = 0
+    for _ in range(300):
+        count = int(rng.integers(3, 9))
+        turns = np.sort(rng.uniform(0.0, 2.0 * np.pi, count))
+        if np.diff([*turns, turns[0] + 2.0 * np.pi]).max() > 3.1:
+            continue  # not on all sides
+        tried += 1
+        places = np.column_stack([np.cos(turns), np.sin(turns), np.zeros(count)]) * rng.uniform(0.02, 0.99, (count, 1))
+        load = shared(places, rng.uniform(0.1, 1.0, count), [0.0, 0.0, 1.0])
+        assert np.abs(load.vectors[:, 2] @ places).max() < 1e-10
+        assert (load.vectors[:, 2] >= 0.0).all()
+    assert tried > 100
