@@ -19,14 +19,17 @@ from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Sensors
 from plantar.gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
 from plantar.geometry.polygon import convex_hull
+from plantar.kernels.contacts.pressed_patch import PressedPatch
 from plantar.kernels.geometry import convex
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import LegNames
+from plantar.sensing.cell_patch import pressed_patch
 from plantar.sensing.reading import Reading
 
-_ROUNDS = 8  # solves that find the carrying cells; two or three do
+_MISSED = 1e-3  # m from the center of pressure above which other cells are tried
+_TINY = 1e-12  # m^2: the square of a side that is none
 _STRAIGHT = 0.02  # of the largest singular value of J: a straight leg's axial force does not show in its torques
 _LYING = 1e-3  # sine between the base's x axis and the vertical, below which its z axis is ahead
 
@@ -54,38 +57,57 @@ class LoadSpread:
         self.places = layout.positions[:, :2].copy()
         self._hull = convex_hull(self.places)
         self._least = 2.0 * layout.force_threshold  # so that each of the cells reports what it carries
-        self._rows = np.column_stack([np.ones(len(self.places)), self.places])
+        self._whole = self._patch_of(np.arange(len(self.places)))
+        away = ((self._hull[:, None] - self.places) ** 2).sum(axis=2)
+        self._rim = away.argmin(axis=1)  # cell of each corner of the hull
+
+    def _patch_of(self, cells: NDArray[np.intp]) -> PressedPatch:
+        return pressed_patch(cells, np.ones(len(cells)), self.places[cells])
 
     def forces(self, load: float, at: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
         """Returns forces (n,) in N of a `load` in N at a point (x, y) of the sole frame in m.
 
-        A load that is too small for all cells is carried by those nearest to the point.
+        A load that is too small for all cells is carried by some about the point, with the same center of pressure
+        where three or more carry it.
         """
         count = len(self.places)
         if not load > 0.0:
             return np.zeros(count)
-        point = np.array(convex.nearest(self._hull, *map(float, at)))
+        point = convex.nearest(self._hull, *map(float, at))
         most = min(count, max(1, int(load / self._least)))
-        carries = np.ones(count, dtype=bool)
-        if most < count:
-            carries[:] = False
-            carries[np.argsort(((self.places - point) ** 2).sum(axis=1))[:most]] = True
-        allowed = carries.copy()
-        wanted = load * np.array([1.0, *point])
-        forces = np.zeros(count)
-        for _ in range(_ROUNDS):
-            rows = self._rows[carries]
-            pressure = self._rows @ np.linalg.lstsq(rows.T @ rows, wanted, rcond=1e-9)[0]
-            forces = np.where(carries, np.maximum(pressure, 0.0), 0.0)
-            now = allowed & (pressure > 0.0)
-            if not now.any() or np.array_equal(now, carries):
-                break
-            carries = now
-        total = float(forces.sum())
-        if total <= 0.0:
-            forces[int(((self.places - point) ** 2).sum(axis=1).argmin())] = load
-            return forces
-        return forces * (load / total)
+        if most == count:
+            return _spread(self._whole, load, point, count)
+        nearest = np.argsort(((self.places - point) ** 2).sum(axis=1), kind="stable")
+        found = _spread(self._patch_of(nearest[:most]), load, point, count)
+        missed = self._missed(found, load, point)
+        if missed < _MISSED:
+            return found
+        # At the rim the nearest cells may all lie on one side: the two at the ends of the hull's side surround it.
+        ends = self._side_at(point)
+        cells = np.concatenate([ends, nearest[~np.isin(nearest, ends)]])[:most]
+        other = _spread(self._patch_of(cells), load, point, count)
+        return other if self._missed(other, load, point) < missed else found
+
+    def _missed(self, forces: NDArray[np.float64], load: float, point: tuple[float, float]) -> float:
+        """Distance in m of the forces' center from a point."""
+        x, y = (forces @ self.places / load).tolist()
+        return math.hypot(x - point[0], y - point[1])
+
+    def _side_at(self, point: tuple[float, float]) -> NDArray[np.intp]:
+        """The cells at the ends of the hull's side that is nearest to a point."""
+        nexts = np.roll(self._hull, -1, axis=0)
+        way = nexts - self._hull
+        off = np.array(point) - self._hull
+        along = np.clip((off * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), _TINY), 0.0, 1.0)
+        side = int(((off - along[:, None] * way) ** 2).sum(axis=1).argmin())
+        return self._rim[[side, (side + 1) % len(self._rim)]]
+
+
+def _spread(patch: PressedPatch, load: float, point: tuple[float, float], count: int) -> NDArray[np.float64]:
+    found = np.zeros(count)
+    if not patch.spread(load, *point, found):
+        patch.settle(load, found)
+    return found
 
 
 class AnkleSoles:

@@ -5,6 +5,7 @@ import pytest
 
 from plantar.common.sides import SIDES
 from plantar.gait.command import Sensors
+from plantar.geometry.polygon import closest_point, convex_hull
 from plantar.mechanics.lip import GRAVITY
 from plantar.robots.controller import load_controller
 from plantar.robots.sole_readings import LoadSpread
@@ -32,6 +33,20 @@ def test_a_load_is_spread_exactly_and_never_pulls(walker):
     inside = 0.3 * (low + high)
     forces = spread.forces(400.0, inside)
     assert forces @ spread.places / 400.0 == pytest.approx(inside, abs=1e-6)
+
+
+@pytest.mark.parametrize("load", [15.0, 25.0, 100.0, 400.0, 900.0])
+def test_the_center_of_pressure_of_drawn_loads_is_what_was_measured(walker, load):
+    layout = walker.robot.layouts["left"]
+    spread = LoadSpread(layout)
+    hull = convex_hull(layout.positions[:, :2])
+    points = np.random.default_rng(7).uniform(layout.outline.min(axis=0), layout.outline.max(axis=0), (100, 2))
+    off = []
+    for point in points:
+        center = spread.forces(load, point) @ spread.places / load
+        off.append(np.hypot(*(center - closest_point(hull, point))))
+    assert max(off) < 1e-3
+    assert np.median(off) < 1e-6
 
 
 @pytest.mark.parametrize("load", [0.0, -5.0, float("nan")])

@@ -6,15 +6,12 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.geometry.polygon import inner_offset
 from plantar.kernels.contacts.pressed_patch import patch_key
 from plantar.kernels.geometry.hull import convex_hull
 
 T = TypeVar("T")
 
 _POINT = 2.6  # widths of a line: half width of a point's square, which spreads as the disc under a pebble does
-_INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a load acts, so that several carry it
-
 
 PATCH_GRID = 1e-4
 MOST_PATCHES = 256
@@ -90,15 +87,3 @@ def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
     lines[:, 1] = -edge[:, 0] / length
     lines[:, 2] = lines[:, 0] * polygon[:, 0] + lines[:, 1] * polygon[:, 1]
     return lines
-
-
-def reach_of(hull: NDArray[np.float64], inside: float = _INSIDE) -> NDArray[np.float64]:
-    """Where a load of several cells can act: their hull moved inward, shrunk where thinner.
-
-    `hull` (k, 2) of the cells' places; `inside`: distance in the hull's unit. Returns polygon (m, 2) in the same unit.
-    """
-    smaller = inner_offset(hull, inside)
-    if len(smaller) >= 3:
-        return smaller
-    middle = hull.mean(axis=0)
-    return np.asarray(middle + (1.0 - _INSIDE) * (hull - middle))

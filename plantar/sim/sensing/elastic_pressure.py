@@ -16,7 +16,8 @@ from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import convex_hull
 from plantar.kernels.geometry import convex
 from plantar.layouts.layout import SoleLayout
-from plantar.sim.sensing.contact_patch import Patches, patch_polygon, reach_of
+from plantar.sensing.cell_patch import reach_of
+from plantar.sim.sensing.contact_patch import Patches, patch_polygon
 from plantar.sim.sensing.elastic_layer import LayerContact, influence
 from plantar.sim.sensing.sole_pressure import SolePressure
 

@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 from plantar.errors import LayoutError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
-from plantar.geometry.polygon import convex_hull
 from plantar.kernels.contacts.pressed_patch import PressedPatch
 from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.layouts.layout import SoleLayout
-from plantar.sim.sensing.contact_patch import MOST_PATCHES, PATCH_GRID, patch_polygon, reach_of
+from plantar.sensing.cell_patch import pressed_patch
+from plantar.sim.sensing.contact_patch import MOST_PATCHES, PATCH_GRID, patch_polygon
 
 _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
 
@@ -100,23 +100,7 @@ class SolePressure:
             points = measure[cells, 1:] / area[:, None]
         else:  # on the bare rim next to the cells
             cells, area, points = self._nearest_cells(polygon)
-        area = np.asarray(area / area.sum(), dtype=np.float64)
-        centre = area @ points
-        off = points - centre
-        scale = max(float(np.abs(off).max()), 1e-3)
-        u = np.empty((len(points), 3))
-        u[:, 0] = 1.0
-        u[:, 1:] = off / scale
-        return PressedPatch(
-            cells,
-            (float(centre[0]), float(centre[1])),
-            scale,
-            area,
-            u,
-            # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
-            _pseudo_inverse((area * u.T) @ u, 1e-9),
-            np.ascontiguousarray(reach_of(convex_hull(u[:, 1:]))),
-        )
+        return pressed_patch(cells, area, points)
 
     def _within_cells(self, polygon: NDArray[np.float64]) -> float:
         if self._hull is None:
@@ -140,13 +124,3 @@ class SolePressure:
         cells = np.flatnonzero(count)
         share = count[cells].astype(np.float64)
         return cells, share, np.column_stack([np.bincount(nearest, v)[cells] for v in rim.T]) / share[:, None]
-
-
-def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.float64]:
-    """Pseudo-inverse of a symmetric semidefinite matrix (n, n), faster than `np.linalg.pinv`."""
-    values, vectors = np.linalg.eigh(matrix)
-    values = values[::-1]
-    vectors = np.ascontiguousarray(vectors[:, ::-1])
-    limit = least * values[0]
-    inverse = np.array([1.0 / value if value > limit else 0.0 for value in values.tolist()])
-    return np.asarray(vectors @ (inverse[:, None] * vectors.T))

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from plantar import LayoutError, SoleLayout, hex_layout, layout_of_cells
 from plantar.geometry.polygon import convex_hull, inner_offset, signed_margin
+from plantar.sensing.cell_patch import _pseudo_inverse as pseudo_inverse
 from plantar.sensing.force import center_of_pressure
 from plantar.sim.sensing.contact_patch import patch_polygon
 from plantar.sim.sensing.sole_pressure import SolePressure
-from plantar.sim.sensing.sole_pressure import _pseudo_inverse as pseudo_inverse
 
 HALF = np.array([0.125, 0.0775])
 OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]
