@@ -17,6 +17,7 @@ _LOW = 0.5  # share of its height below which the CoM of a robot that stands nev
 _OFF = 0.1  # weight: soles with less have left the ground
 _OFF_FOR = 0.3  # s: longer, no walking robot is in the air
 _ANGLE = 3.2  # rad: beyond, and in degrees, an angle shows nothing
+_LIES = 2  # what `Uprightness.update` returns of a base that does
 _FROZEN = 0.12  # s for which a sensor that works may report the same bits
 
 
@@ -45,7 +46,7 @@ class FallCheck:
         self._posture = posture
         self._frozen = round(_FROZEN / period)
         self._most_off = round(_OFF_FOR / period)
-        self._up = Uprightness(period, self._frozen, GRAVITY)
+        self._up = Uprightness(period, self._frozen, GRAVITY, (_TILTED, _PULLED))
         self._load: float | None = None
         self._same = 0
         self._off = 0
@@ -54,13 +55,11 @@ class FallCheck:
 
     def is_down(self, sensors: Sensors) -> bool:
         """Whether the `sensors` of a tick show that the robot has fallen; of any kind, even None."""
-        up = self._up
-        if up.update(getattr(sensors, "gyro", None), getattr(sensors, "accelerometer", None)):
+        found: int = self._up.update(getattr(sensors, "gyro", None), getattr(sensors, "accelerometer", None))
+        if found:
             self.knows = True
             self._carried = False
-            if up.turns and up.pulls:
-                return bool(up.turned < _TILTED and up.pulled < _PULLED)
-            return bool((up.pulled if up.pulls else up.turned) < _TILTED)
+            return found == _LIES
         off = self._soles_are_off(sensors)
         self.knows = off is not None
         return bool(off) or self._is_low(sensors)

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,7 +124,9 @@ class FaultLog:
                 command.write(time, *places, stiffness, phase, step)
 
 
-def _force(readings: object, side: Side) -> object:
+def _force(readings: Any, side: Side) -> object:
     """Forces of a side's reading as they are; None where there is none."""
-    reading = readings.get(side) if isinstance(readings, Mapping) else None
+    if type(readings) is not dict and not isinstance(readings, Mapping):
+        return None
+    reading = readings.get(side)
     return getattr(reading, "force", None)

@@ -46,6 +46,9 @@ _STALLED = 0.1  # s by which a tick comes late, and is noted
 _OFF = 0.5  # rad by which a joint misses its target; with a quarter of the drives' stiffness knees miss it by 0.3
 _OFF_FOR = 0.015  # s after which it is off
 _MOST_OFF = 2  # joints whose encoders fail at a time; more are moved from outside, as by a blow
+# What the soles' check returns of those that it cannot take as they are, and of those that carry the robot
+_UNREAD = -1
+_CARRY = 1
 _FINAL = ("fallen", "limp", "released")
 _PROBLEMS = ("", "a joint angle that no robot has", "an IMU reading that no robot has", "IMU stuck", "encoders stuck")
 
@@ -102,7 +105,7 @@ class SafetyShell:
         self._limits = TargetLimits(period, leg, math.sqrt(leg / GRAVITY), self._weight)
         self._joints = joints
         self._body: BodyCheck | None = None
-        self._soles = SoleCheck(self._weight)
+        self._soles = SoleCheck(self._weight, _UNLOADED * self._weight)
         self._stuck = round(_STUCK / period)
         self._bridged = round(_SILENT / period)
         self._silent = 0
@@ -167,14 +170,13 @@ class SafetyShell:
                 command = self._held()
         self._last = command
         self.log.add(sensors, command)
-        self._note_state()
+        named = self.state or self._stop.state
+        if named != self._named:
+            self._note_state(named)
         return command
 
-    def _note_state(self) -> None:
+    def _note_state(self, named: str | None) -> None:
         """Log a state that has just begun."""
-        named = self.state or self._stop.state
-        if named == self._named:
-            return
         self._named = named
         if named == "lost":
             self.reason = "the CoM would have to be farther from the feet than it is high"
@@ -183,9 +185,10 @@ class SafetyShell:
 
     def _stepped(self, sensors: Sensors, time: float) -> Command:
         down = self._fall.is_down(sensors)
-        stopped = self._stopped()
-        if stopped is not None:
-            return stopped
+        if self._beat is not None or self._asked is not None:
+            stopped = self._stopped()
+            if stopped is not None:
+                return stopped
         if self.bring_up is not None and not self.bring_up.passed and self._asked is None:
             return self._checked(self.bring_up, sensors)
         if self.state in _FINAL:
@@ -317,23 +320,31 @@ class SafetyShell:
         if self._body is None:
             self._joints = len(joints) if self._joints is None else self._joints
             self._body = BodyCheck(self._joints, self._stuck, max(_SLIP, _JERK * self._period**2))
-        if len(joints) != self._joints or len(gyro) != 3 or len(accelerometer) != 3:
-            return 1
         found = self._body.check(joints, gyro, accelerometer)
-        moves = self._last.phase.kind != PhaseKind.STANDING
-        return found if found < 3 or moves else 0
+        return found if found < 3 or self._last.phase.kind != PhaseKind.STANDING else 0
 
     def _readings(self, sensors: Sensors) -> Readings | None:
         """Each sole's reading under its side; a silent one follows from the other."""
         readings = sensors.readings
         soles = self._soles
         counts = self._counts
+        left = readings.get("left")
+        right = readings.get("right")
+        seen = _UNREAD
+        if left is not None and right is not None and self._lost is None:
+            seen = soles.look(left.force, counts["left"], right.force, counts["right"])
+        if seen == _CARRY:
+            self._carried = True
+            self._empty = 0
+            self._unloaded = 0
+            return readings
         left = _sound(readings, "left", counts["left"])
         right = _sound(readings, "right", counts["right"])
         if left is None or right is None:
             lost: Side | None = "left" if left is None else "right"
             return None if left is right else self._replaced(sensors, readings, lost)
-        soles.update(left.force, counts["left"], right.force, counts["right"])
+        if seen == _UNREAD:
+            soles.update(left.force, counts["left"], right.force, counts["right"])
         if soles.swapped:
             if counts["left"] != counts["right"]:
                 return None

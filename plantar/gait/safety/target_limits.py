@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, FootTarget
-from plantar.kernels.safety.plausible import farthest
+from plantar.kernels.safety.plausible import TargetMoves
 
 # leg/beat: fastest targets of a foot and of the CoM
 _FOOT = 1.1
@@ -29,32 +29,37 @@ class TargetLimits:
         self._com = _COM * leg * share
         self._turn = _TURN * share
         self._force = _FORCE * weight * share
+        self._moves = TargetMoves(self._com, self._foot, self._turn, self._force)
+        self._taken: Command | None = None  # whose targets those are that the next ones are compared with
 
     def limited(self, before: Command, now: Command) -> Command:
         """A command with targets within the limits from the last tick's.
 
         Returns `now` itself within limits; else with targets on the way.
         """
-        left = now.feet["left"]
-        right = now.feet["right"]
-        was_left = before.feet["left"]
-        was_right = before.feet["right"]
-        if (
-            farthest(before.com, now.com, 3) <= self._com
-            and farthest(was_left.position, left.position, 3) <= self._foot
-            and farthest(was_right.position, right.position, 3) <= self._foot
-            and farthest(was_left.rotation, left.rotation, 9) <= self._turn
-            and farthest(was_right.rotation, right.rotation, 9) <= self._turn
-            and farthest(before.rotation_torso, now.rotation_torso, 9) <= self._turn
-            and farthest(was_left.force, left.force, 3) <= self._force
-            and farthest(was_right.force, right.force, 3) <= self._force
-        ):
+        if before is not self._taken:
+            self._is_near(before)
+        self._taken = None
+        near = self._is_near(now)
+        self._taken = now
+        if near:
             return now
         feet: Mapping[Side, FootTarget] = {side: self._foot_of(before.feet[side], now.feet[side]) for side in SIDES}
         return now.changed(
             com=_moved(before.com, now.com, self._com),
             rotation_torso=_turned(before.rotation_torso, now.rotation_torso, self._turn),
             feet=feet,
+        )
+
+    def _is_near(self, command: Command) -> bool:
+        left = command.feet["left"]
+        right = command.feet["right"]
+        return bool(
+            self._moves.within(
+                *(command.com, command.rotation_torso),
+                *(left.position, left.rotation, left.force),
+                *(right.position, right.rotation, right.force),
+            )
         )
 
     def _foot_of(self, before: FootTarget, now: FootTarget) -> FootTarget:

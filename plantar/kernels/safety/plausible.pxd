@@ -20,14 +20,25 @@ cdef class BodyCheck:
 
 @cython.final
 cdef class SoleCheck:
-    cdef double weight
+    cdef double weight, carried
     cdef readonly double left, right
     cdef readonly int left_same, right_same
     cdef bint steady
     cdef readonly bint swapped
-    cpdef int update(self, left, int left_count, right, int right_count) except -1
+    @cython.locals(one=double, other=double)
+    cpdef int look(self, left, int left_count, right, int right_count) except -2
+    @cython.locals(new_left=double, new_right=double, old_left=double, old_right=double, near=double, anew=bint)
+    cpdef int update(self, left, int left_count, right, int right_count) except -2
 
-@cython.locals(largest=double, change=double)
-cpdef double farthest(before, now, int count) except? -1.0
+@cython.final
+cdef class TargetMoves:
+    cdef double com, foot, turn, force
+    cdef object kept
+    @cython.locals(near=bint)
+    cpdef bint within(
+        self, com, torso, left, left_turn, left_force, right, right_turn, right_force
+    ) except *
+    @cython.locals(near=bint, i=int)
+    cdef bint _near(self, double* kept, int begin, double* now, int count, double most) noexcept
 @cython.locals(total=double)
 cdef double _total(double* force, int count) noexcept

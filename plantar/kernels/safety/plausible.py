@@ -6,7 +6,7 @@ import numpy as np
 
 from ..base import memory
 
-__all__ = ["BodyCheck", "SoleCheck", "farthest"]
+__all__ = ["BodyCheck", "SoleCheck", "TargetMoves"]
 
 _FAST = 0.25  # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz
 _TURNED = 12.0  # rad: beyond, no joint of a leg has an angle
@@ -35,17 +35,19 @@ class BodyCheck:
         self.steps = np.zeros(joints)
 
     def check(self, joints, gyro, accelerometer):
-        """Check a reading of the right sizes: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in
+        """Check a reading: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in
         m/s^2.
 
-        Returns 0 for no fault, 1 impossible joint angle, 2 impossible IMU, 3 stuck IMU, 4 stuck joints. NaN is not
-        checked.
+        Returns 0 for no fault, 1 impossible joint angle or a reading of other sizes, 2 impossible IMU, 3 stuck IMU, 4
+        stuck joints. NaN is not checked.
         """
+        n = self.joints
+        if len(joints) != n or len(gyro) != 3 or len(accelerometer) != 3:
+            return 1
         q = memory.values(joints)
         w = memory.values(gyro)
         a = memory.values(accelerometer)
         kept = memory.room(self.kept)
-        n = self.joints
         slips = memory.room(self.slips)
         steps = memory.room(self.steps)
         found = 0
@@ -94,12 +96,14 @@ class BodyCheck:
 class SoleCheck:
     """Plausibility of forces on the soles of a robot of a weight in N, tick by tick.
 
-    `left`: force in N on left sole, of taxels that report one; `right` likewise; `left_same`: ticks without a change of
-    `left`; `right_same` likewise; `swapped`: whether soles have exchanged their reports.
+    `carried`: force in N on both that a robot on its feet does not lack; `left`: force in N on left sole, of taxels
+    that report one; `right` likewise; `left_same`: ticks without a change of `left`; `right_same` likewise; `swapped`:
+    whether soles have exchanged their reports.
     """
 
-    def __init__(self, weight):
+    def __init__(self, weight, carried=0.0):
         self.weight = weight
+        self.carried = carried
         self.left = -1.0
         self.right = -1.0
         self.left_same = 0
@@ -107,8 +111,21 @@ class SoleCheck:
         self.steady = False
         self.swapped = False
 
+    def look(self, left, left_count, right, right_count):
+        """`update` with arrays of these sizes whose first number is one; returns -1, and takes nothing, for others."""
+        if memory.size(left) != left_count or memory.size(right) != right_count or left_count == 0 or right_count == 0:
+            return -1
+        one = memory.values(left)[0]
+        other = memory.values(right)[0]
+        if one != one or other != other:
+            return -1
+        return self.update(left, left_count, right, right_count)
+
     def update(self, left, left_count, right, right_count):
-        """Take a tick's forces: `left_count` on the `left` sole, `right_count` on the `right`, as wired; Returns 0."""
+        """Take a tick's forces: `left_count` on the `left` sole, `right_count` on the `right`, as wired.
+
+        Returns 1 where the soles are wired right, both report anew and they carry the robot, else 0.
+        """
         new_left = _total(memory.values(left), left_count)
         new_right = _total(memory.values(right), right_count)
         if self.swapped:
@@ -132,19 +149,49 @@ class SoleCheck:
         )
         self.left = new_left
         self.right = new_right
-        return 0
+        anew = self.left_same == 0 and self.right_same == 0 and not self.swapped
+        return 1 if anew and new_left + new_right > self.carried else 0
 
 
-def farthest(before, now, count):
-    """Largest change of the first `count` numbers from `before` to `now`; returns NaN if any is."""
-    a = memory.values(before)
-    b = memory.values(now)
-    largest = 0.0
-    for i in range(count):
-        change = math.fabs(a[i] - b[i])
-        if not change <= largest:
-            largest = change
-    return largest
+class TargetMoves:
+    """Compares a command's targets with the last one's.
+
+    `com`: largest change of the CoM's coordinates in a tick in m; `foot`: of a sole's; `turn`: of an entry of a
+    rotation; `force`: of a foot's force in N.
+    """
+
+    def __init__(self, com, foot, turn, force):
+        self.com = com
+        self.foot = foot
+        self.turn = turn
+        self.force = force
+        self.kept = np.zeros(42)
+
+    def within(self, com, torso, left, left_turn, left_force, right, right_turn, right_force):
+        """Whether all targets are within the limits from the last call's, and keep them; one that is NaN is not.
+
+        CoM (3,) in m and rotation (3, 3) of the torso; of each sole position (3,) in m, rotation (3, 3), force (3,) in
+        N.
+        """
+        kept = memory.room(self.kept)
+        near = self._near(kept, 0, memory.values(com), 3, self.com)
+        near &= self._near(kept, 3, memory.values(torso), 9, self.turn)
+        near &= self._near(kept, 12, memory.values(left), 3, self.foot)
+        near &= self._near(kept, 15, memory.values(left_turn), 9, self.turn)
+        near &= self._near(kept, 24, memory.values(left_force), 3, self.force)
+        near &= self._near(kept, 27, memory.values(right), 3, self.foot)
+        near &= self._near(kept, 30, memory.values(right_turn), 9, self.turn)
+        near &= self._near(kept, 39, memory.values(right_force), 3, self.force)
+        return near
+
+    def _near(self, kept, begin, now, count, most):
+        """Whether numbers are within a limit from the kept ones, which they become."""
+        near = True
+        for i in range(count):
+            if not math.fabs(kept[begin + i] - now[i]) <= most:
+                near = False
+            kept[begin + i] = now[i]
+        return near
 
 
 def _total(force, count):

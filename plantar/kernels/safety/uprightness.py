@@ -21,6 +21,7 @@ class Uprightness:
         period: Of control in s.
         frozen: Ticks.
         gravity: In m/s^2.
+        least: Cosine of the tilt by both, and by the accelerometer alone, below which it lies.
 
     Attributes:
         turned: Cosine of the tilt by both.
@@ -28,10 +29,11 @@ class Uprightness:
         turns: Whether the gyro works; `pulls` likewise the accelerometer.
     """
 
-    def __init__(self, period, frozen, gravity):
+    def __init__(self, period, frozen, gravity, least=(0.0, 0.0)):
         self.period = period
         self.gravity = gravity
         self.frozen = frozen
+        self.least_turned, self.least_pulled = least
         self.begun = False
         self.x = 0.0
         self.y = 0.0
@@ -53,7 +55,10 @@ class Uprightness:
         self.force_same = 0
 
     def update(self, gyro, accelerometer):
-        """Follow a tick's gyro (3,) in rad/s and accelerometer (3,) in m/s^2; returns whether one of them works."""
+        """Follow a tick's gyro (3,) in rad/s and accelerometer (3,) in m/s^2.
+
+        Returns 0 where none of them works, 1 for a base that is up, 2 for one that lies.
+        """
         turns = memory.size(gyro) == 3 and self._turn(memory.values(gyro))
         pulls = memory.size(accelerometer) == 3 and self._pull(memory.values(accelerometer), turns)
         self.turns = turns
@@ -61,7 +66,11 @@ class Uprightness:
         self.turned = self.z
         size = math.sqrt(self.ax * self.ax + self.ay * self.ay + self.az * self.az)
         self.pulled = self.az / size if size > 0.0 else 1.0
-        return turns or pulls
+        if turns and pulls:
+            return 2 if self.turned < self.least_turned and self.pulled < self.least_pulled else 1
+        if not (turns or pulls):
+            return 0
+        return 2 if (self.pulled if pulls else self.turned) < self.least_turned else 1
 
     def _turn(self, w):
         wx = w[0]

@@ -1,0 +1,53 @@
+"""What the shell compares each tick: targets with the last ones, and forces on the soles."""
+
+import numpy as np
+import pytest
+
+from plantar import kernels
+from plantar.kernels.safety import plausible
+
+FORMS = [plausible, kernels.python_form("plausible")]
+LIMITS = (0.01, 0.02, 0.05, 30.0)
+SHAPES = [(3,), (3, 3), (3,), (3, 3), (3,), (3,), (3, 3), (3,)]
+MOST = [LIMITS[k] for k in (0, 2, 1, 2, 3, 1, 2, 3)]
+
+
+def targets(rng):
+    return [rng.normal(size=shape) for shape in SHAPES]
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_targets_within_their_limits(form):
+    rng = np.random.default_rng(1)
+    for _ in range(200):
+        before = targets(rng)
+        now = [v + most * rng.uniform(-1.02, 1.02, v.shape) for v, most in zip(before, MOST, strict=True)]
+        moves = form.TargetMoves(*LIMITS)
+        moves.within(*before)
+        expected = all(np.abs(b - a).max() <= most for a, b, most in zip(before, now, MOST, strict=True))
+        assert moves.within(*now) == expected
+        assert moves.within(*now)  # they are the last ones now
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("which", range(8))
+def test_each_target_counts_and_nan_never_passes(form, which):
+    before = targets(np.random.default_rng(which))
+    for change in (1.01 * MOST[which], np.nan):
+        moves = form.TargetMoves(*LIMITS)
+        moves.within(*before)
+        now = [v.copy() for v in before]
+        now[which].flat[-1] += change
+        assert not moves.within(*now)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_soles_that_carry_need_no_other_look(form):
+    check = form.SoleCheck(800.0, 240.0)
+    assert check.look(np.array([100.0, 200.0]), 2, np.array([50.0]), 1) == 1
+    assert check.look(np.array([100.0, 200.0]), 2, np.array([60.0]), 1) == 0  # the left one reports the same
+    assert check.look(np.array([100.0, 90.0]), 2, np.array([40.0]), 1) == 0  # less than the robot weighs
+    assert check.look(np.array([np.nan, 200.0]), 2, np.array([61.0]), 1) == -1
+    assert check.look(np.array([200.0]), 2, np.array([61.0]), 1) == -1
+    assert check.look(None, 2, np.array([61.0]), 1) == -1
+    assert (check.left, check.right) == (190.0, 40.0)
