@@ -100,7 +100,7 @@ class LoadSpread:
         off = np.array(point) - self._hull
         along = np.clip((off * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), _TINY), 0.0, 1.0)
         side = int(((off - along[:, None] * way) ** 2).sum(axis=1).argmin())
-        return self._rim[[side, (side + 1) % len(self._rim)]]
+        return np.asarray(self._rim[[side, (side + 1) % len(self._rim)]])
 
 
 def _spread(patch: PressedPatch, load: float, point: tuple[float, float], count: int) -> NDArray[np.float64]:
