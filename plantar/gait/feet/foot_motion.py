@@ -18,6 +18,7 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.kernels.base.vectors import close, vector, vector2
 from plantar.kernels.gait.command_frame import CommandFrame
+from plantar.kernels.gait.swing_lag import SwingLag
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
@@ -93,6 +94,7 @@ class FootMotion:
         self._touch = (0.0, 0.0)
         self._rises_first: set[Side] = set()
         self._wary = 0
+        self._lag = SwingLag(period, landing.body.in_si("leg/beat"))
 
     @property
     def last_side(self) -> Side | None:
@@ -296,6 +298,7 @@ class FootMotion:
         self._lowering = 0.0
         if self._compliance is not None:
             self._compliance[side].begin(start.haste)
+            self._lag.begin()
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
 
     def _rise(self, stance: Side, lifted: NDArray[np.float64], way_x: float, way_y: float) -> float:
@@ -336,6 +339,7 @@ class FootMotion:
         position, yaw = self.footholds[side]
         elapsed = time - self._start
         if not self.landed:
+            self._lag.update(float(position[2]), float(sense.position[2] - frame.offset[2]))
             view = compliance.ground.update(sense.percept, sense.position, sense.rotation, time)
             if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
@@ -352,7 +356,8 @@ class FootMotion:
                 self._tilts[side] = rotation_from_vector((1.0 - risen) * self._lifted_tilt)
                 return
             falling = swing.falling(elapsed, planned.item(2))
-            time_left = (phase.end if phase.swing is not None else phase.start) - time
+            down = phase.start if phase.swing is None else phase.end
+            time_left = down - time - self._lag.time
             if time_left <= 0.0:
                 falling = self._landing.speed
             remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
@@ -366,7 +371,8 @@ class FootMotion:
                     planned = position
             else:
                 # One that has to catch the body comes down wherever it is.
-                drop = compliance.descent(view, falling, 0.0 if self.hurried else remaining, time_left, period)
+                away = 0.0 if self.hurried else remaining
+                drop = compliance.descent(view, falling, away, time_left, period, self._lag.to_come)
             if view is not None and remaining < _NEARLY_THERE * self._leg:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)

@@ -94,20 +94,28 @@ class SwingCompliance:
         return self._moved(self._speed, period)
 
     def descent(
-        self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float
+        self,
+        view: GroundView | None,
+        planned: float,
+        remaining: float,
+        time_left: float,
+        period: float,
+        to_come: float = 0.0,
     ) -> float:
         """Returns the descent in m in a tick; negative: up.
 
         `planned`: swing plan's downward speed in m/s; `remaining`: horizontal distance in m; `time_left`: until the
-        plan puts weight on it, in s; negative if it does; `period` of control in s.
+        plan puts weight on it, in s; negative if it does; `period` of control in s; `to_come`: descent in m that is
+        commanded already and not seen yet (`SwingLag`).
         """
         g = self.gains
         if view is None:
             self._aim = None
             self._speed = min(planned, self._speed + g.acceleration * period)
             return self._moved(self._speed, period)
+        distance = view.distance - to_come
         if self._aim is None:
-            self._aim = view.distance
+            self._aim = distance
         above = remaining < _THERE * self._leg
         left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
         quick = 1.0 - _SOONER * self._haste
@@ -118,13 +126,13 @@ class SwingCompliance:
         damping = quick * max(g.damping, (time_left - g.crawl_time) / g.steepness)
         rise = -_LARGEST_RISE * self._speed_unit
         wanted = left / damping + crawl if left > 0.0 else max(rise, left / g.damping)
-        behind = view.distance - self._aim
+        behind = distance - self._aim
         if above:
             wanted = max(wanted, crawl)
         elif planned < wanted:  # a hasty foot comes down as it comes to its place
             wanted += self._haste * (planned - wanted)
             self._aim += self._haste * behind
-            behind = view.distance - self._aim
+            behind = distance - self._aim
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
         return self._moved(min(g.top_speed, max(rise, self._speed + behind / g.correction)), period)
