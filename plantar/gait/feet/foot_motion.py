@@ -356,7 +356,7 @@ class FootMotion:
                 self._tilts[side] = rotation_from_vector((1.0 - risen) * self._lifted_tilt)
                 return
             falling = swing.falling(elapsed, planned.item(2))
-            down = phase.start if phase.swing is None else phase.end
+            down = phase.start if phase.swing is None else phase.end - phase.wait
             time_left = down - time - self._lag.time
             if time_left <= 0.0:
                 falling = self._landing.speed
