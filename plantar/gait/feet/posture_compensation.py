@@ -38,6 +38,7 @@ class PostureCompensation:
     shift: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     _weight: float = 0.0
+    _left: float = 1.0
     _kept: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
 
     @classmethod
@@ -53,7 +54,20 @@ class PostureCompensation:
         self.shift = np.zeros(3)
         self.turn = np.zeros(3)
         self._weight = 0.0
+        self._left = 1.0
         self._kept = np.zeros(3)
+
+    def release(self) -> None:
+        """A tick of a foot that stands and takes weight: the correction that it landed with fades evenly.
+
+        Measured again, it would follow the body onto the foot, which its leg turns into force: 3 mm and 5 mrad within
+        30 ms, as after a probe of 1 s, are 0.7 weights.
+        """
+        left = max(0.0, self._left - self.period / self.fade)
+        share = left / self._left if self._left > 0.0 else 0.0
+        self._left = left
+        self.shift = share * self.shift
+        self.turn = share * self.turn
 
     def keep(self, shift: NDArray[np.float64]) -> None:
         """Add a landed foot's farther command, so that its target does not jump; it fades.

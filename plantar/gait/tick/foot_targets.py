@@ -90,13 +90,15 @@ class FootTargets:
         frame = footing.frame
         compensation = footing.compensation
         foot = feet[side]
-        if phase.swing != side or not footing.motion.landed:
+        # One that has landed before its support's end keeps its correction: following the body as it leans onto the
+        # foot would take the load off it.
+        if not footing.motion.landed:
             # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
             aligned = frame.aligned(foot.position, state.com)
             measured = lean_correction.headed(state.rotation_base_to_world, torso)
             compensation.update(phase.swing == side, foot.position, aligned, com, state.com, posture, measured)
-        # A foot that has landed before its support's end keeps its correction: one that followed the body as it leans
-        # onto the foot would take the load off it.
+        elif phase.swing != side:
+            compensation.release()
         rotation = lean_correction.turned(compensation.turn, foot.rotation)
         feet[side] = FootTarget(foot.position + compensation.shift, rotation, foot.force, foot.center_of_pressure)
 

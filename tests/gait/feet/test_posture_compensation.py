@@ -98,3 +98,19 @@ def test_a_foot_that_lands_before_the_correction_counts_is_not_commanded_away_at
     # What does not count yet goes out with the low pass, which takes a sixth a tick; a jump would be all of it.
     assert np.abs(np.diff(targets, axis=0)).max() < 0.2 * beside.max()
     assert targets[-1] == pytest.approx(stands, abs=1e-6)
+
+
+def test_a_standing_foots_correction_fades_evenly_whatever_the_body_does() -> None:
+    compensation, lean = PostureCompensation(0.005), np.asarray(Rotation.from_rotvec([0.05, -0.02, 0.0]).as_matrix())
+    shift, turn = settle(compensation, True, lean)
+    shift, turn = shift.copy(), turn.copy()
+    ticks = round(compensation.fade / compensation.period)
+    for k in range(1, ticks + 1):
+        compensation.release()
+        assert compensation.shift == pytest.approx((1.0 - k / ticks) * shift, abs=1e-12)
+        assert compensation.turn == pytest.approx((1.0 - k / ticks) * turn, abs=1e-12)
+    compensation.release()
+    assert not compensation.shift.any()
+    compensation.start()
+    settle(compensation, True, lean)
+    assert compensation.shift == pytest.approx(shift)
