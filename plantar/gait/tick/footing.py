@@ -120,8 +120,8 @@ class Footing:
             heights = {i: state.positions_sole[i].item(2) for i in SIDES}
         motion.update(phase, sensed.time, target, state.loads, self.frame, senses, self._press(), heights)
         feet = motion.view
-        if feet.touchdown and feedback and s.step_adjustment is not None:
-            self._stand_at_landing(feet, state, s.step_adjustment.misplaced)
+        if feet.touchdown and feedback:
+            self._stand_at_landing(feet, state)
             feet = motion.view
         if feet.lift_off and feet.side is not None:
             self.compensation.start()
@@ -132,24 +132,37 @@ class Footing:
             self.contacts.touchdown(feet.side)
         return feet
 
-    def _stand_at_landing(self, feet: FeetView, state: BaseState, misplaced: float) -> None:
-        """Command a landed foot where it is, if steps move for balance."""
-        if feet.side is None or state.loads[feet.side] <= self._settings.landing.contact_force:
-            return  # only the plan has it down
+    def _stand_at_landing(self, feet: FeetView, state: BaseState) -> None:
+        """Command a landed foot where it is: a stance that is 4 mm wider or longer than the command is 100 N between
+        the feet, and a hip at its limit.
+        """
         side = feet.side
-        other = other_side(feet.side)
+        if side is None or (self._settings.compliance is None and not self._carries(state, side)):
+            return  # only the plan has it down
+        adjustment = self._settings.step_adjustment
+        other = other_side(side)
         soles = state.positions_sole
         x, y = self.frame.to_command(soles[side][:2]).tolist()
-        # A pelvis that sinks puts the foot down before its path does: it stands lower than it is commanded.
-        z = feet.footholds[other][0].item(2) + (soles[side] - soles[other]).item(2)
-        place = vector(x, y, z)
         commanded = feet.footholds[side][0]
+        yaw = feet.footholds[side][1]
+        # How deep it presses follows from its load.
+        place = vector(x, y, commanded.item(2))
+        if adjustment is not None and self._carries(state, side):
+            # A pelvis that sinks puts the foot down before its path does: it stands lower than it is commanded.
+            lower = vector(x, y, feet.footholds[other][0].item(2) + (soles[side] - soles[other]).item(2))
+            if math.dist(lower, commanded) > adjustment.misplaced:
+                place = lower
+                yaw = heading(state.rotations_sole[side]) - self.frame.turn
         away = math.dist(place, commanded)
-        if away > misplaced:
+        if away > 0.0:
             # Of a body that falls, or by encoders that err by degrees, a foot may seem to be anywhere.
             place = commanded + min(1.0, _MAX_LANDING_OFFSET * self._settings.body.leg / away) * (place - commanded)
-            self.motion.stand_at(side, place, heading(state.rotations_sole[side]) - self.frame.turn)
+            self.motion.stand_at(side, place, yaw)
             self.compensation.keep(commanded - place)
+
+    def _carries(self, state: BaseState, side: Side) -> bool:
+        """Whether a foot has the load of a touchdown."""
+        return state.loads[side] > self._settings.landing.contact_force
 
     def _press(self) -> float | None:
         if self.guard is not None and self.guard.press is not None:
