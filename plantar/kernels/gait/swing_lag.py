@@ -5,8 +5,8 @@ Drives, their delays and those of encoders make a foot follow by a time tau that
     z_measured - z_commanded = o - tau dz_commanded/dt
 
 A swing's rise and fall show tau by least squares; the offset o is of the body above the foot, another one each swing.
-What was commanded within the last tau is still to come. A descent that does not count it corrects a distance twice: with
-a time constant of 30 ms and a lag of 33 ms it oscillates about the ground instead of touching it.
+What was commanded within the last tau is still to come. A descent that does not count it corrects a distance twice:
+with a time constant of 30 ms and a lag of 33 ms it oscillates about the ground instead of touching it.
 """
 
 import numpy as np

@@ -4,7 +4,7 @@ from ..base cimport pointers as memory
 
 @cython.final
 cdef class WrenchProgram:
-    cdef double weight, length, net, pressure
+    cdef double weight, length, net, pressure, horizontal
     cdef const double[::1] unit
     cdef double[:, ::1] jacobian
     cdef const double[:, ::1] fixed
@@ -23,6 +23,8 @@ cdef class WrenchProgram:
     @cython.locals(total=double)
     cpdef bint turn(self) noexcept
     cpdef bint weigh(self, bint renewed) noexcept
+    @cython.locals(own=double, its=double, both=double)
+    cdef void _level(self, Py_ssize_t i, Py_ssize_t j, double cost) noexcept
     cpdef void aim(self) noexcept
     cpdef void finish_gradient(self) noexcept
     @cython.locals(i=Py_ssize_t, off=double, largest=double)

@@ -13,8 +13,8 @@ class WrenchProgram:
     """Program of n contacts, in its units; fills the caller's arrays.
 
     Args:
-        scales: Weight of robot in N, unit of moments over forces in m, costs of net wrench and of proportion of normal
-            forces.
+        scales: Weight of robot in N, unit of moments over forces in m, costs of net wrench, of proportion of normal
+            forces and of that of horizontal ones.
         unit: Unit of each unknown (6 n,) in N and N m, contact by contact.
         jacobian: Receives map (6, 6 n) from unknowns to net wrench about contacts' middle.
         fixed: Part of Hessian (6 n, 6 n) that does not depend on shares, filled by caller.
@@ -24,7 +24,7 @@ class WrenchProgram:
     """
 
     def __init__(self, scales, unit, jacobian, fixed, hessian, wanted, gradient):
-        self.weight, self.length, self.net, self.pressure = scales
+        self.weight, self.length, self.net, self.pressure, self.horizontal = scales
         self.unit = unit
         self.jacobian = jacobian
         self.fixed = fixed
@@ -139,7 +139,24 @@ class WrenchProgram:
                 hessian[b, b] += self.pressure * one * one
                 hessian[a, b] -= self.pressure * one * other
                 hessian[b, a] -= self.pressure * one * other
+                self._level(i, j, self.horizontal)
         return True
+
+    def _level(self, i, j, cost):
+        """Add the cost of horizontal forces of contacts `i` and `j` that are not in proportion of their shares."""
+        hessian = self.hessian
+        rotations = self.rotations
+        one = self.shares[i]
+        other = self.shares[j]
+        for a in range(3):
+            for b in range(3):
+                own = rotations[i, 0, a] * rotations[i, 0, b] + rotations[i, 1, a] * rotations[i, 1, b]
+                its = rotations[j, 0, a] * rotations[j, 0, b] + rotations[j, 1, a] * rotations[j, 1, b]
+                both = rotations[i, 0, a] * rotations[j, 0, b] + rotations[i, 1, a] * rotations[j, 1, b]
+                hessian[6 * i + a, 6 * i + b] += cost * other * other * own
+                hessian[6 * j + a, 6 * j + b] += cost * one * one * its
+                hessian[6 * i + a, 6 * j + b] -= cost * one * other * both
+                hessian[6 * j + b, 6 * i + a] -= cost * one * other * both
 
     def aim(self):
         """Fill the wanted net wrench about the middle of the contacts."""

@@ -10,7 +10,7 @@ from plantar.kernels import python_form
 from plantar.kernels.mechanics import wrench_program
 
 FORMS = (wrench_program, python_form("wrench_program"))
-WEIGHT, LENGTH, NET, PRESSURE = 600.0, 0.1, 1e4, 0.3
+WEIGHT, LENGTH, NET, PRESSURE, HORIZONTAL = 600.0, 0.1, 1e4, 0.3, 50.0
 UNIT = WEIGHT * np.array([1.0, 1.0, 1.0, LENGTH, LENGTH, LENGTH])
 
 
@@ -20,7 +20,7 @@ class Filled:
     def __init__(self, module, count, fixed):
         self.jacobian, self.hessian = np.zeros((6, 6 * count)), np.zeros((6 * count, 6 * count))
         self.wanted, self.gradient = np.zeros(6), np.ones(6 * count)
-        scales = (WEIGHT, LENGTH, NET, PRESSURE)
+        scales = (WEIGHT, LENGTH, NET, PRESSURE, HORIZONTAL)
         filled = (self.jacobian, fixed, self.hessian, self.wanted, self.gradient)
         self.kernel = module.WrenchProgram(scales, np.tile(UNIT, count), *filled)
 
@@ -71,8 +71,11 @@ def test_it_fills_the_program_that_numpy_would(seed, count):
     # Half of v' H v adds the sum over pairs of the squared deviations from the wanted proportion.
     normal = unknowns[2::6]
     off = np.outer(shares, normal) - np.outer(normal, shares)
-    pressure = unknowns @ (form.hessian - fixed) @ unknowns
-    assert pressure == pytest.approx(PRESSURE * 0.5 * float((off**2).sum()), rel=1e-9, abs=1e-11)
+    added = unknowns @ (form.hessian - fixed) @ unknowns
+    level = [(rotation @ unknowns[6 * i : 6 * i + 3])[:2] for i, (_, rotation) in enumerate(contacts)]
+    beside = [shares[j] * level[i] - shares[i] * level[j] for i in range(count) for j in range(i)]
+    expected = PRESSURE * 0.5 * float((off**2).sum()) + HORIZONTAL * sum(float(f @ f) for f in beside)
+    assert added == pytest.approx(expected, rel=1e-9, abs=1e-11)
     for name in ("jacobian", "hessian", "wanted", "gradient"):
         np.testing.assert_array_equal(*(getattr(form, name) for form in forms), err_msg=name)
     for one, other in zip(*solved, strict=True):
