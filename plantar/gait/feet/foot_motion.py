@@ -374,7 +374,9 @@ class FootMotion:
                 away = 0.0 if self.hurried else remaining
                 drop = compliance.descent(view, falling, away, time_left, period, self._lag.to_come)
             if view is not None and remaining < _NEARLY_THERE * self._leg:
-                self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
+                # A block under a rim is not under the middle: unless all is one plane, what would be met first counts.
+                under = view.middle if view.even else min(view.middle, view.distance)
+                self.surprise = float(sense.position[2] - frame.offset[2]) - under - self._expected
             turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)
             if turn.item(0) != 0.0 or turn.item(1) != 0.0:
                 self._tilts[side] = self._tilts[side].dot(rotation_from_vector(turn))

@@ -282,8 +282,10 @@ def test_a_foot_that_sees_the_ground_presses_as_it_is_told():
     assert held[130.0] == pytest.approx(130.0, rel=0.1)
 
 
-def seeing(ground, tilt=0.0, rise=0.0, until=3.28):
-    """Motion and heights of a seeing right foot over `ground`, where the left sole tilts and stands higher."""
+def seeing(ground, tilt=0.0, rise=0.0, until=3.28, block=None):
+    """Motion and heights of a seeing right foot over `ground`, where the left sole tilts and stands higher; `block`:
+    its height, under the foremost fifth of the right sole.
+    """
     layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
     feet, steps = straight_plan(3)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
@@ -303,6 +305,9 @@ def seeing(ground, tilt=0.0, rise=0.0, until=3.28):
             position, _ = motion.footholds[side]
             above = math.inf if ground is None else max(0.0, float(position[2]) - ground)
             seen = None if ground is None else np.full(len(layout), above if above < 0.05 else np.inf)
+            if block is not None and side == "right":
+                over = np.where(layout.positions[:, 0] > 0.06, above - block, above)
+                seen = np.where(over < 0.05, np.maximum(over, 0.0), np.inf)
             percept = Percept(layout, Reading(time=time, force=np.zeros(len(layout)), proximity=seen))
             senses[side] = SoleSense(percept, position, np.eye(3))
         loads = {"left": 800.0 if phase.swing != "left" else 0.0, "right": 800.0 if phase.swing != "right" else 0.0}
@@ -327,3 +332,9 @@ def test_a_foot_that_sees_no_ground_at_its_place_goes_down_to_look():
     assert level.min() == pytest.approx(-LANDING.depth, abs=2e-3)
     assert low[-1] < level.min() - 0.01
     assert missing.min() > level.min() - 0.002  # a sole that is missing shows nothing
+
+
+@pytest.mark.parametrize("block", [0.0, 0.012, 0.03])
+def test_what_lies_under_a_rim_alone_is_higher_ground(block):
+    motion, _ = seeing(0.0, until=3.1, block=block)
+    assert motion.surprise == pytest.approx(block, abs=5e-3)  # less than half of what is seen under the middle
