@@ -74,6 +74,9 @@ QUICK = {
     "record_larger_than_memory": Example(
         r"([\d.]+) MB on disk, ([\d.]+) MB at a time", ("50000",), lambda disk, held: held < 0.1 * disk
     ),
+    "record_any_size": Example(
+        r"40 steps of 2 people.*ST presses ([\d.]+) kPa, BF ([\d.]+)", holds=lambda shoe, bare: shoe < 0.8 * bare
+    ),
     "record_own_sensor": Example(
         r"mcap: 1000 frames at 100 Hz.*right: at most (\d+) N", holds=lambda load: load == 700
     ),

@@ -52,7 +52,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "table_writer",
             "row_table",
         ),
-        *("optional_library", "console", "extensions", "files", "settings", "pages"),
+        *("optional_library", "console", "extensions", "files", "settings", "pages", "workers"),
     ),
     "plantar.gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "safety"),
@@ -60,7 +60,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "plantar.gait.analysis": (
         *("masks", "measures", "options", "subject", "prints", "steps", "summary", "direction", "health", "activity"),
-        *("parameters", "measure_errors", "pages", "metrics", "results", "analyse_one", "compare", "study"),
+        *("parameters", "measure_errors", "pages", "metrics", "results", "analyse_one", "compare", "walkway", "study"),
         *("custom", "c3d_export", "exports", "analyse"),
     ),
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),

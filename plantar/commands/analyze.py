@@ -129,6 +129,10 @@ class StudyOrder:
     mixed: bool = _option(False, "Fit mixed models of single steps, too (needs statsmodels).")
     xlsx: bool = _option(False, "Write study.xlsx, with a sheet of definitions, too (needs XlsxWriter).")
     jobs: int = _option(1, "Processes that measure recordings.")
+    parquet: bool = _option(False, "Write steps.parquet instead of steps.csv (needs pyarrow).")
+    scheduler: str | None = _option(
+        None, "Dask scheduler whose workers measure, on machines that see the folders under the same paths."
+    )
 
     def plan(self) -> Any:
         """The `StudyOptions`."""
@@ -144,6 +148,8 @@ class StudyOrder:
             self.mixed,
             self.xlsx,
             self.jobs,
+            self.parquet,
+            self.scheduler,
         )
 
 
@@ -210,17 +216,18 @@ def analyze(
     compares the conditions, and a study that was stopped goes on where it was.
     """
     from plantar.formats import is_study_folder
+    from plantar.formats.walkway import is_walkway
 
     if (recording is None) == (compare is None):
         raise InputError("give either one recording or --compare A B: plantar analyze walk.asc")
     drawn = not as_json if figures is None else figures
-    if recording is not None and is_study_folder(recording):
+    if recording is not None and (is_study_folder(recording) or is_walkway(recording)):
         if export:
             raise InputError("--export is for one recording; a study's tables are CSV files")
         _analyze_study(recording, participants, file, order, study, output, as_json, drawn)
         return
     if study != StudyOrder():
-        raise InputError("--factor to --jobs are for a folder of recordings: plantar analyze recordings/")
+        raise InputError("--factor to --scheduler are for a folder of recordings: plantar analyze recordings/")
     if participants is not None:
         raise InputError(
             "--participants is for a folder of recordings: plantar analyze recordings/ --participants table.csv"
@@ -299,12 +306,15 @@ def _analyze_study(
     figures: bool,
 ) -> None:
     """Measure a folder of recordings; one that cannot be read is listed, without failing the command."""
+    from plantar.common.workers.cluster_workers import network_note
     from plantar.gait.analysis.analyse_one import with_layout
     from plantar.gait.analysis.study.run_study import run_study
     from plantar.gait.analysis.subject import Subject
 
     options = with_layout(file.options(order.mass), file.layout)
     choices = order.choices()
+    if plan.scheduler is not None and (note := network_note(plan.scheduler)):
+        print_note(f"note: {note}")
     if order.subject() != Subject():
         raise InputError("--participant, --mass and --foot-length are for one recording: a study has --participants")
     with progress_bar() as progress:

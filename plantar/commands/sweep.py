@@ -58,8 +58,8 @@ def sweep(
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here; MuJoCo would look for a display
     need_libraries("sim", *LIBRARIES)
     need_compiled("a sweep")
+    from plantar.common.workers.cluster_workers import network_note
     from plantar.sim.sweep import SweepStopped, plan_from_texts, run_sweep
-    from plantar.sim.sweep.cluster import network_note
     from plantar.sim.sweep.sweep_text import sweep_errors, sweep_text
 
     wanted = plan_from_texts(

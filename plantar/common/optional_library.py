@@ -38,6 +38,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
     },
     "formats": {"rosbags": "rosbags", "ezc3d": "ezc3d", "opencv-contrib-python-headless": "cv2"},
     "study": {"statsmodels": "statsmodels", "XlsxWriter": "xlsxwriter"},
+    "parquet": {"pyarrow": "pyarrow"},
     "cluster": {"distributed": "distributed"},
     "gym": {"gymnasium": "gymnasium"},
     "warp": {"mujoco-warp": "mujoco_warp", "warp-lang": "warp"},

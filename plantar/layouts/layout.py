@@ -6,7 +6,7 @@ exerts [0, 0, f] on it, f >= 0.
 
 import math
 import operator
-from collections.abc import ItemsView, Mapping
+from collections.abc import ItemsView, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from types import MappingProxyType
@@ -288,6 +288,13 @@ class SoleLayout:
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:
         """Corners (k, 2) of one cell, sole plane in m, counter-clockwise."""
         return self.vertices[list(self.corners[integer(taxel, "taxel", 0, len(self.corners) - 1)]), :2]
+
+    def cell_rings(self, cells: Sequence[int] | NDArray[np.int64]) -> NDArray[np.float64]:
+        """Corners (n, c, 2) of some cells, sole plane in m; the last is repeated where a cell has fewer than c."""
+        first = self.corner_start[cells]
+        last = self.corner_start[np.asarray(cells) + 1] - 1
+        at = np.minimum(first[:, None] + np.arange(int((last - first).max(initial=0)) + 1), last[:, None])
+        return np.asarray(self.vertices[self.corner_vertex[at], :2])
 
 
 def mirrored(layout: SoleLayout) -> SoleLayout:

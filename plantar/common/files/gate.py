@@ -108,7 +108,7 @@ PROMISES: Mapping[str, str] = {
     "No text of a file moves the terminal's cursor.": "tests/plantar/common/console/test_ending.py",
     "A page runs only its own scripts and makes no request.": "tests/plantar/common/pages/test_page.py",
     "A Dask scheduler is trusted by certificates, or on this machine alone without a note.": (
-        "tests/sim/sweep/test_cluster.py"
+        "tests/plantar/common/workers/test_cluster_workers.py"
     ),
     "No random damage of a file traces back, hangs or takes memory without bound.": "tests/fuzz/test_mutants.py",
 }

@@ -22,23 +22,26 @@ _END = b"PK\x05\x06"
 _END_64 = b"PK\x06\x06"
 
 
-def is_bomb(size: float, unpacked: float) -> bool:
+def is_bomb(size: float, unpacked: float, ratio: float = _RATIO) -> bool:
     """Returns whether a file of `size` bytes unpacks to more than measurements and meshes do: `unpacked`, as stated.
+
+    `ratio`: how many times its size, by default 100.
 
     Example:
         >>> is_bomb(1e6, 99e6), is_bomb(1e6, 101e6), is_bomb(2e6, 101e6)
         (False, True, False)
     """
-    return unpacked > _ANYHOW and unpacked > _RATIO * size
+    return unpacked > _ANYHOW and unpacked > ratio * size
 
 
 @contextmanager
 def open_archive(
-    path: str | os.PathLike[str], error: type[PlantarError], most: float
+    path: str | os.PathLike[str], error: type[PlantarError], most: float, ratio: float = _RATIO
 ) -> Iterator[tuple[zipfile.ZipFile, BinaryIO]]:
     """Open the ZIP archive at `path`; yields archive and its file.
 
-    Raises `error` for a bad one, or one that unpacks to more than `most` bytes in all.
+    Raises `error` for a bad one, or one that unpacks to more than `most` bytes in all, or than `ratio` times its size:
+    above 100 only for what is read in pieces.
 
     Example:
         >>> import tempfile
@@ -68,7 +71,7 @@ def open_archive(
                 raise error(f"{path}: an archive of {len(parts)} parts; allowed: up to {_MOST_PARTS}")
             if unpacked > most:
                 raise error(f"{path}: unpacks to {unpacked / 1e6:.0f} MB; allowed: up to {most / 1e6:.0f} MB")
-            if is_bomb(size, unpacked):
+            if is_bomb(size, unpacked, ratio):
                 raise error(
                     f"{path}: {size / 1e6:.3g} MB that unpack to {unpacked / 1e6:.0f} MB; allowed: {ALLOWED} "
                     "(store it uncompressed)"

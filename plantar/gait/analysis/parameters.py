@@ -297,7 +297,7 @@ def _other_foot(recording: PressureRecording, side: Side, events: _Events) -> Ot
     theirs = events[other][0]
     if own is not None and (theirs is None or theirs.peak < _UNLOADED * own.peak):
         return None  # a sensor that is not connected does not show what the foot does
-    return OtherFoot(recording, other, events[other][1])
+    return OtherFoot.of_recording(recording, other, events[other][1])
 
 
 def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Levels | None) -> list[Contact]:

@@ -9,15 +9,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from plantar.common.workers.cluster_workers import ClusterWorkers
+from plantar.common.workers.local_workers import LocalWorkers
+from plantar.common.workers.workers import Workers
 from plantar.errors import InputError, WorkerError
 from plantar.plotting import save_figure
-from plantar.sim.sweep.cluster import ClusterWorkers
 from plantar.sim.sweep.figures import figures_of
 from plantar.sim.sweep.inputs import inputs_of
 from plantar.sim.sweep.plan import Key, Plan, Rows, key_of
 from plantar.sim.sweep.results import open_results
-from plantar.sim.sweep.task import Row, Task, columns_of
-from plantar.sim.sweep.workers import LocalWorkers, Workers
+from plantar.sim.sweep.task import JOB, Row, Task, columns_of
 
 Progress = Callable[[float, str], None]
 _SIGNALS = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
@@ -87,7 +88,7 @@ def run_sweep(
     with (
         stop_noted() as note,
         open_results(folder, plan.identity(), inputs, checked.axes, columns) as table,
-        closing(LocalWorkers(workers) if scheduler is None else ClusterWorkers(scheduler)) as pool,
+        closing(LocalWorkers(workers, JOB) if scheduler is None else ClusterWorkers(scheduler, JOB)) as pool,
     ):
         before = len(table.rows)
         tasks = _Tasks(plan, inputs, table.rows)

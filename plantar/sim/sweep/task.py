@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from plantar.common.workers.workers import Job
 from plantar.errors import DependencyError, InputError, PlantarError
 from plantar.sim.run.scene import Scene
 from plantar.sim.run.scene_kind import open_scene, simulation_of
@@ -141,3 +142,12 @@ def _check_inputs(task: Task) -> None:
 def failed(error: str) -> Row:
     """The row of an impossible run."""
     return {**dict.fromkeys(COLUMNS, ""), "completed": False, "error": error}
+
+
+def load_runner() -> None:
+    """Load the heavy part of a run, so that what dies from here on died of its run."""
+    import plantar.sim.run.runner  # noqa: F401
+
+
+JOB = Job(run_task, failed, load_runner)
+"""What the workers of a sweep do."""

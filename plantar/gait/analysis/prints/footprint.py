@@ -4,7 +4,6 @@ A set of loaded convex cells. Foot frame: origin at the back of the heel, u alon
 medial side.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -13,11 +12,11 @@ from numpy.typing import NDArray
 
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import convex_hull
+from plantar.layouts.cell_grid import CellGrid
 from plantar.layouts.layout import Side, SoleLayout
 
 # Shares of the length, toes included, in which the foot's axis halves the widths of heel and forefoot.
-_HEEL = (0.0, 0.25)
-_FOREFOOT = (0.55, 0.80)
+_BANDS = ((0.0, 0.25), (0.55, 0.80))
 _ROUNDS = 4  # How often the axis is found again, in bands that turn with it
 
 
@@ -44,19 +43,26 @@ class Footprint:
     toe_line: NDArray[np.float64] | None = None
 
     @cached_property
+    def ends(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Least and largest (u, v) in m of each cell, (n, 2) each."""
+        return extremes(self.rings)
+
+    @cached_property
     def centres(self) -> NDArray[np.float64]:
         """Cell centres (n, 2) as (u, v) in m."""
-        return np.asarray(0.5 * (self.rings.min(axis=1) + self.rings.max(axis=1)))
+        low, high = self.ends
+        return np.asarray(0.5 * (low + high))
 
     @property
     def length(self) -> float:
         """Length in m, toes included."""
-        return float(self.rings[:, :, 0].max())
+        return float(self.ends[1][:, 0].max())
 
     @property
     def width(self) -> float:
         """Largest width in m."""
-        return float(np.ptp(self.rings[:, :, 1]))
+        low, high = self.ends
+        return float(high[:, 1].max() - low[:, 1].min())
 
     @cached_property
     def is_toe(self) -> NDArray[np.bool_]:
@@ -68,21 +74,20 @@ class Footprint:
     @property
     def toeless_length(self) -> float:
         """Length in m from heel to front of the metatarsal heads."""
-        return float(self.rings[~self.is_toe][:, :, 0].max()) if (~self.is_toe).any() else self.length
+        return float(self.ends[1][~self.is_toe, 0].max()) if (~self.is_toe).any() else self.length
 
     def area_between(self, low: float, high: float) -> float:
         """Returns toeless print area in m^2 between lines across the axis at u = low and high in m."""
-        rings = self.rings[~self.is_toe]
-        areas = self.areas[~self.is_toe]
-        first = rings[:, :, 0].min(axis=1)
-        last = rings[:, :, 0].max(axis=1)
-        within = (first >= low) & (last <= high)
-        met = (last > low) & (first < high)
-        total = float(areas[within].sum())
+        first, last = (end[:, 0] for end in self.ends)
+        within = (first >= low) & (last <= high) & ~self.is_toe
+        met = (last > low) & (first < high) & ~self.is_toe
+        total = float(self.areas[within].sum())
         if (met & ~within).any():
-            cells = CellCutter.of_polygons(list(rings[met & ~within]))
+            cells = CellCutter.of_polygons(list(self.rings[met & ~within]))
             whole, cut = (cells.cut(lines)[0][:, 0] for lines in ([], [[-1.0, 0.0, -low], [1.0, 0.0, high]]))
-            total += float(areas[met & ~within] @ np.divide(cut, whole, out=np.zeros_like(cut), where=whole != 0.0))
+            total += float(
+                self.areas[met & ~within] @ np.divide(cut, whole, out=np.zeros_like(cut), where=whole != 0.0)
+            )
         return total
 
     def arch_index(self) -> float:
@@ -124,7 +129,7 @@ class Footprint:
 
 
 def footprint_of_cells(
-    layout: SoleLayout,
+    layout: SoleLayout | CellGrid,
     pressure: NDArray[np.float64],
     loaded: NDArray[np.bool_],
     side: Side,
@@ -138,8 +143,7 @@ def footprint_of_cells(
     chosen = np.flatnonzero(loaded)
     if len(chosen) == 0:
         return None
-    rings = _padded([layout.cell_polygon(int(i)) for i in chosen])
-    return _footprint(rings, layout.areas[chosen], pressure[chosen], side, forward)
+    return _footprint(layout.cell_rings(chosen), layout.areas[chosen], pressure[chosen], side, forward)
 
 
 def footprint_of_pixels(
@@ -152,11 +156,6 @@ def footprint_of_pixels(
     box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     rings = centres[:, None, :] + box
     return _footprint(rings, np.full(len(centres), pixel**2), np.ones(len(centres)), side, forward)
-
-
-def _padded(polygons: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    most = max(len(p) for p in polygons)
-    return np.array([np.vstack([p, np.repeat(p[-1:], most - len(p), axis=0)]) for p in polygons])
 
 
 def _footprint(
@@ -173,17 +172,28 @@ def _footprint(
     return replace(print_, rings=print_.in_foot(rings.reshape(-1, 2)).reshape(rings.shape))
 
 
+def extremes(rings: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Least and largest coordinates (n, 2) of rings (n, c, 2): several times faster than over so short an axis."""
+    low = rings[:, 0]
+    high = rings[:, 0]
+    for corner in range(1, rings.shape[1]):
+        low = np.minimum(low, rings[:, corner])
+        high = np.maximum(high, rings[:, corner])
+    return low, high
+
+
 def _axis(
     rings: NDArray[np.float64], areas: NDArray[np.float64], forward: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Print's axis: direction (2,) and point (2,); halves the widths of heel and forefoot."""
     axis = np.asarray(forward, dtype=float) / np.hypot(*forward)
-    through = np.average(0.5 * (rings.min(axis=1) + rings.max(axis=1)), axis=0, weights=areas)
+    through = np.average(0.5 * np.add(*extremes(rings)), axis=0, weights=areas)
     for _ in range(_ROUNDS):  # the bands turn with the axis
-        along = rings @ axis
-        low = float(along.min())
-        length = float(along.max()) - float(along.min())
-        heel, fore = (_middle_of_band(rings, axis, low + a * length, low + b * length) for a, b in (_HEEL, _FOREFOOT))
+        turned = rings.reshape(-1, 2) @ np.array([[axis[0], -axis[1]], [axis[1], axis[0]]])
+        first, last = extremes(turned.reshape(rings.shape))
+        low = float(first[:, 0].min())
+        length = float(last[:, 0].max()) - low
+        heel, fore = (_middle_of_band(first, last, axis, low + a * length, low + b * length) for a, b in _BANDS)
         if heel is None or fore is None or np.hypot(*(fore - heel)) < 0.2 * length:
             break
         step = fore - heel
@@ -193,13 +203,12 @@ def _axis(
 
 
 def _middle_of_band(
-    rings: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
+    first: NDArray[np.float64], last: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
 ) -> NDArray[np.float64] | None:
-    across = rings @ np.array([-axis[1], axis[0]])
-    along = rings @ axis
-    centre = 0.5 * (along.min(axis=1) + along.max(axis=1))
+    """Middle of the cells in a band, by the ends (n, 2) of each along and across the axis."""
+    centre = 0.5 * (first[:, 0] + last[:, 0])
     inside = (centre >= low) & (centre <= high)
     if not inside.any():
         return None
-    middle = 0.5 * float(across[inside].min() + across[inside].max())
+    middle = 0.5 * float(first[inside, 1].min() + last[inside, 1].max())
     return np.asarray(0.5 * (low + high) * axis + middle * np.array([-axis[1], axis[0]]))

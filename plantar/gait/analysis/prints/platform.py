@@ -125,7 +125,7 @@ def _with_cuts(
     load: PlatformLoad, prints: list[PlatformPrint], shapes: Sequence[Footprint], notes: list[str]
 ) -> list[PlatformPrint]:
     """Prints of shapes, marked where the edge cuts them off: shorter or narrower than those that lie inside."""
-    beside = np.array([len(near) for near in load.layout.neighbours])
+    beside = np.array([len(near) for near in cast(SoleLayout, load.layout).neighbours])
     at_edge = np.array([(beside[p.cells] < np.median(beside)).any() for p in prints])
     sizes = np.array([(shape.length, shape.width) for shape in shapes])
     if at_edge.all():

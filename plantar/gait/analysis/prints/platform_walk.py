@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from plantar.common.sides import Side, other_side
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_cells
 from plantar.gait.analysis.prints.joined import joined
+from plantar.layouts.cell_grid import CellGrid
 from plantar.layouts.layout import SoleLayout
 
 LONGEST = 0.36
@@ -34,7 +35,7 @@ _LEAST_PRINT = 0.05
 class PlatformLoad:
     """Load of platform cells. `force`: force (n, k) in N, 0 if unmeasured; `time`: times (n,) in s."""
 
-    layout: SoleLayout
+    layout: SoleLayout | CellGrid
     force: NDArray[np.float64]
     time: NDArray[np.float64]
 
@@ -110,14 +111,16 @@ def _without_breaks(time: NDArray[np.float64], loaded: NDArray[np.bool_]) -> lis
     return [(int(part[0]), int(part[-1]) + 1) for part in parts if len(part)]
 
 
-def _components(layout: SoleLayout, active: NDArray[np.bool_]) -> list[list[int]]:
+def _components(layout: SoleLayout | CellGrid, active: NDArray[np.bool_]) -> list[list[int]]:
     """Active cells that touch, or have one between them."""
+    if isinstance(layout, CellGrid):
+        return layout.groups(active)
     near = layout.neighbours
     reach = {cell: {*near[cell], *(j for k in near[cell] for j in near[k])} for cell in np.flatnonzero(active).tolist()}
     return [sorted(cells) for cells in joined(reach)]
 
 
-def _apart(layout: SoleLayout, one: _Piece, other: _Piece) -> float:
+def _apart(layout: SoleLayout | CellGrid, one: _Piece, other: _Piece) -> float:
     a, b = (layout.positions[p.cells, :2].mean(axis=0) for p in (one, other))
     return float(np.hypot(*(a - b)))
 
@@ -131,7 +134,7 @@ def _one_foot(load: PlatformLoad, group: PrintCells, piece: _Piece) -> bool:
     return length <= LONGEST and width <= _WIDEST
 
 
-def extent_of(layout: SoleLayout, cells: Sequence[int] | NDArray[np.int64]) -> tuple[float, float]:
+def extent_of(layout: SoleLayout | CellGrid, cells: Sequence[int] | NDArray[np.int64]) -> tuple[float, float]:
     """Returns width and length in m of a layout's cells along their main axes."""
     points = layout.positions[cells, :2]
     _, axes = np.linalg.eigh(np.cov(points.T) if len(points) > 2 else np.eye(2))

@@ -35,7 +35,8 @@ def with_toe_line(print_: Footprint) -> Footprint:
     In each strip along the foot the valley beyond the highest pressure between 45 and 80 % of the length counts if
     below 60 % of what follows. Strips without one use their neighbours' line.
     """
-    extent = np.ptp(print_.rings[:, :, 0], axis=1)
+    low, high = print_.ends
+    extent = high[:, 0] - low[:, 0]
     pitch = float(np.median(extent)) if len(extent) else 0.0
     if np.ptp(print_.centres[:, 1]) < 2.0 * pitch or print_.length < 6.0 * pitch:
         return print_
@@ -62,10 +63,8 @@ def _profile(
     print_: Footprint, strip: NDArray[np.bool_], pitch: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     places = np.arange(0.40 * print_.length, print_.length, 0.5 * max(pitch, print_.length / 200.0))
-    rings = print_.rings[strip]
     pressure = print_.pressure[strip]
-    first = rings[:, :, 0].min(axis=1)
-    last = rings[:, :, 0].max(axis=1)
+    first, last = (end[strip, 0] for end in print_.ends)
     over = (first[:, None] <= places) & (last[:, None] >= places)
     return places, np.where(over, pressure[:, None], 0.0).max(axis=0, initial=0.0)
 
@@ -79,19 +78,16 @@ def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float 
     peak = int(np.flatnonzero(fore)[np.argmax(height[fore])])
     within = (places >= 0.62 * print_.length) & (places <= 0.92 * print_.length)
     beyond = np.maximum.accumulate(height[::-1])[::-1]
-    inner = range(peak + 1, len(places) - 1)
-    candidates = [i for i in inner if within[i] and _is_valley(height, i, peak, beyond[i + 1])]
-    if not candidates:
+    top = height[peak]
+    after = np.append(beyond[1:], 0.0)
+    low = (after >= _TOE_PEAK * top) & (height <= _DEPTH * np.minimum(after, top))  # next to the peak and to toes
+    low[: peak + 1] = False
+    candidates = np.flatnonzero(low & within)
+    if not len(candidates):
         return None
-    lowest = min(candidates, key=lambda i: float(height[i]))
+    lowest = int(candidates[np.argmin(height[candidates])])
     higher = np.flatnonzero(height[lowest:] > height[lowest] + 1e-12)
     return float(places[lowest : lowest + higher[0]].mean())
-
-
-def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -> bool:
-    """Whether a place is low next to the forefoot's peak and what follows like toes."""
-    top = float(height[peak])
-    return bool(beyond >= _TOE_PEAK * top and height[at] <= _DEPTH * min(float(beyond), top))
 
 
 def _whole_gap(print_: Footprint, pitch: float) -> bool:
@@ -109,7 +105,7 @@ def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.in
     toe = print_.is_toe
     if print_.toe_line is None and of_sole is not None:
         toe = u > _TOES_OF_SOLE * of_sole
-    length = float(print_.rings[~toe][:, :, 0].max()) if (~toe).any() else print_.length
+    length = float(print_.ends[1][~toe, 0].max()) if (~toe).any() else print_.length
     out = np.zeros(len(u), dtype=np.int64)
     out[u > length / 3.0] = 1
     front = (u > 2.0 * length / 3.0) & ~toe
@@ -118,8 +114,7 @@ def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.in
         (toe, ("toes", "hallux"), (1.0 - _HALLUX,)),
     ):
         if cells.any():
-            low = float(print_.rings[cells][:, :, 1].min())
-            high = float(print_.rings[cells][:, :, 1].max())
+            low, high = (float(pick(end[cells, 1])) for pick, end in zip((np.min, np.max), print_.ends, strict=True))
             index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
             out[cells] = np.array([list(REGIONS).index(name) for name in names])[index]
     return out
@@ -148,8 +143,7 @@ def ten_regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[n
         (toe, ("toes", "hallux"), (1.0 - _HALLUX,)),
     ):
         if cells.any():
-            low = float(print_.rings[cells][:, :, 1].min())
-            high = float(print_.rings[cells][:, :, 1].max())
+            low, high = (float(pick(end[cells, 1])) for pick, end in zip((np.min, np.max), print_.ends, strict=True))
             index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
             out[cells] = np.array([names.index(name) for name in first])[index]
     return out

@@ -1,19 +1,23 @@
 """Pressure of contacts: peaks, integrals, areas, regions, and a robot's wrench."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.batch import support_polygons
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.geometry.polygon import signed_margin
+from plantar.layouts.cell_grid import CellGrid
 from plantar.layouts.layout import SoleLayout
 
+_BOX = 8  # Rows and columns by which boxes around footprints differ, of which a layout each is kept
 _MOST_FRAMES = 200  # Frames of a contact in which support polygons are looked at; of more, every n-th
 
 
-def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[str, float]]:
+def pressure_measures(load: StepLoad, layout: SoleLayout | CellGrid | None) -> list[dict[str, float]]:
     """Returns measures of each contact of a load by key; areas need a layout."""
     assert load.pressure is not None
     highest = load.pressure.max(axis=1)
@@ -29,7 +33,10 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[st
         frames = np.add.reduceat((area > 0.0).astype(float), load.starts)
         every = -(-load.lengths // _MOST_FRAMES)
         chosen = (np.arange(len(area)) - np.repeat(load.starts, load.lengths)) % np.repeat(every, load.lengths) == 0
-        polygons = support_polygons(layout, force if chosen.all() else force[chosen], 0.0).area
+        held = force if chosen.all() else force[chosen]
+        polygons = (
+            hull_areas(layout, held) if isinstance(layout, CellGrid) else support_polygons(layout, held, 0.0).area
+        )
         counts = -(-load.lengths // every)
         starts = np.cumsum(counts) - counts
         out |= {
@@ -41,6 +48,34 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[st
             "support_polygon_mean_m2": np.add.reduceat(polygons, starts) / counts,
         }
     return [dict(zip(out, row, strict=True)) for row in zip(*(v.tolist() for v in out.values()), strict=True)]
+
+
+def hull_areas(grid: CellGrid, force: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Areas (m,) in m^2 of the convex hulls of a grid's cells with a force (m, k) above 0.
+
+    Example:
+        >>> corners = CellGrid(np.array([0, 0, 9]), np.array([0, 9, 0]))
+        >>> (hull_areas(corners, np.array([[1.0, 0.0, 0.0], [1.0, 1.0, 1.0]])) / 0.005**2).round(6).tolist()
+        [1.0, 59.5]
+    """
+    row = grid.row - grid.row.min()
+    column = grid.column - grid.column.min()
+    rows, columns = (-(-(int(ends.max()) + 1) // _BOX) * _BOX for ends in (row, column))
+    layout = _whole_box(rows, columns, grid.pitch)
+    loaded = np.zeros((len(force), rows, columns), dtype=bool)
+    loaded[:, rows - 1 - row, column] = force > 0.0
+    frame, line = np.nonzero(loaded.any(axis=2))
+    own = loaded[frame, line]
+    ends = np.zeros((len(force), rows, columns))  # no cell between the first and last of a row is a corner
+    ends[frame, line, own.argmax(axis=1)] = 1.0
+    ends[frame, line, columns - 1 - own[:, ::-1].argmax(axis=1)] = 1.0
+    return support_polygons(layout, ends.reshape(len(force), -1), 0.0).area
+
+
+@lru_cache(maxsize=64)
+def _whole_box(rows: int, columns: int, pitch: tuple[float, float]) -> SoleLayout:
+    present = np.ones((rows, columns), dtype=bool)
+    return grid_cells(present, *pitch, side="left", name="box", threshold=0.0)
 
 
 def region_measures(

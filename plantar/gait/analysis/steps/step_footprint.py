@@ -15,6 +15,7 @@ from plantar.gait.analysis.prints.regions import regions_of, ten_regions_of, wit
 from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.steps.step_load import StepLoads
+from plantar.layouts.cell_grid import CellGrid
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import PressureRecording
 
@@ -36,7 +37,7 @@ def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads)
     insole = recording.kind == "insole"
     of_sole = float(layout.outline[:, 0].max() - print_.origin[0]) if insole else None
     whole = footprint_of_cells(layout, np.ones(len(layout)), np.ones(len(layout), dtype=bool), gait.foot.side)
-    print_, region = _with_regions(gait.masks, layout, print_, whole, loaded, of_sole)
+    print_, region = with_regions(gait.masks, layout, print_, whole, loaded, of_sole)
     return replace(gait, footprint=print_, region=region, sole=whole)
 
 
@@ -46,14 +47,19 @@ def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepL
     return np.asarray(np.max(highest, axis=0) if recording.kind == "platform" else np.mean(highest, axis=0))
 
 
-def _with_regions(
+def with_regions(
     masks: Masks,
-    layout: SoleLayout,
+    layout: SoleLayout | CellGrid,
     print_: Footprint,
     sole: Footprint | None,
     loaded: NDArray[np.bool_],
     of_sole: float | None = None,
 ) -> tuple[Footprint, NDArray[np.int64]]:
+    """Returns footprint with its toe line, and region (k,) of each of a layout's cells by masks, -1 for none.
+
+    `sole`: footprint of the whole sole, of which polygons are shares; `loaded`: cells (k,) of the print; `of_sole`: as
+    of `regions_of`.
+    """
     print_ = with_toe_line(print_)
     region = np.full(len(loaded), -1)
     if masks.kind == "polygons":
@@ -64,14 +70,14 @@ def _with_regions(
     return print_, region
 
 
-def places_in_foot(layout: SoleLayout, print_: Footprint) -> NDArray[np.float64]:
+def places_in_foot(layout: SoleLayout | CellGrid, print_: Footprint) -> NDArray[np.float64]:
     """Returns cells' places (k, 2) in foot coordinates: shares of a footprint's, or sole's, length and width."""
     low = print_.rings.reshape(-1, 2).min(axis=0)
     high = print_.rings.reshape(-1, 2).max(axis=0)
     return np.asarray((print_.in_foot(layout.positions[:, :2]) - low) / (high - low))
 
 
-def cells_in_polygons(masks: Masks, layout: SoleLayout, print_: Footprint) -> list[NDArray[np.bool_]]:
+def cells_in_polygons(masks: Masks, layout: SoleLayout | CellGrid, print_: Footprint) -> list[NDArray[np.bool_]]:
     """Returns which cells (k,) of a layout are in each polygon of masks, by the length and width of a print."""
     places = places_in_foot(layout, print_)
     return [np.asarray(shapely.contains_xy(shapely.Polygon(ring), places)) for ring in masks.polygons]
@@ -93,7 +99,7 @@ def footprint_of_step(
     forward = of_step.forward if of_step is not None else np.array([1.0, 0.0])
     pressure = highest if recording.raw else highest / layout.areas
     print_ = footprint_of_cells(layout, pressure, loaded, gait.foot.side, forward)
-    return (None, None) if print_ is None else _with_regions(gait.masks, layout, print_, None, loaded)
+    return (None, None) if print_ is None else with_regions(gait.masks, layout, print_, None, loaded)
 
 
 def print_of_contact(contact: Contact, side: Side, prints: Sequence[PlatformPrint]) -> PlatformPrint | None:

@@ -98,18 +98,32 @@ def time_measures(
 
 
 class OtherFoot:
-    """Other foot's contacts, as sorted arrays."""
+    """Other foot's contacts, as sorted arrays.
 
-    def __init__(self, recording: PressureRecording, side: Side, contacts: Sequence[Contact]) -> None:
-        time = recording.time
+    `spans`: first and last time in s of each contact; `measured`: those in which the foot was measured without gaps.
+    """
+
+    def __init__(
+        self,
+        contacts: Sequence[Contact],
+        spans: Sequence[tuple[float, float]],
+        measured: Sequence[tuple[float, float]],
+    ) -> None:
         self.strikes = np.array([c.heel_strike for c in contacts if c.heel_strike is not None])
-        spans = measured_spans(time, recording.feet[side].vertical_force)
-        self._measured = [(float(time[first]), float(time[after - 1])) for first, after in spans]
-        begin = [float(time[c.begin]) if c.heel_strike is None else c.heel_strike for c in contacts]
-        end = [float(time[c.end - 1]) if c.toe_off is None else c.toe_off for c in contacts]
-        self._begin = np.array(begin)
-        self._end = np.array(end)
+        self._measured = measured
+        self._begin = np.array([begin for begin, _ in spans])
+        self._end = np.array([end for _, end in spans])
         self._walk = np.array([c.walk for c in contacts])
+
+    @classmethod
+    def of_recording(cls, recording: PressureRecording, side: Side, contacts: Sequence[Contact]) -> OtherFoot:
+        """Foot of a side of a recording; contacts that this cuts begin and end with their frames."""
+        time = recording.time
+        measured = measured_spans(time, recording.feet[side].vertical_force)
+        begins = [float(time[c.begin]) if c.heel_strike is None else c.heel_strike for c in contacts]
+        ends = [float(time[c.end - 1]) if c.toe_off is None else c.toe_off for c in contacts]
+        whole = [(float(time[first]), float(time[after - 1])) for first, after in measured]
+        return cls(contacts, list(zip(begins, ends, strict=True)), whole)
 
     def was_measured(self, begin: float, end: float) -> bool:
         """Returns whether the foot was measured from begin to end in s, without long gaps."""

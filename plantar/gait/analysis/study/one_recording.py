@@ -2,8 +2,9 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,15 +18,19 @@ from plantar.common.sides import Side
 from plantar.common.version import VERSION
 from plantar.errors import FormatError
 from plantar.formats import ReadOptions
+from plantar.formats.walkway import is_walkway
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
 from plantar.gait.analysis.compare import sensor_of
-from plantar.gait.analysis.measures import REGION_MEASURES, in_percent, naming
+from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, in_percent, naming
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.force_figures import stance_curves
 from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.study.participants import Participation
+from plantar.gait.analysis.study.stored_steps import StoredRows
 from plantar.gait.analysis.subject import Subject
+from plantar.gait.analysis.summary import gait_of_feet
+from plantar.gait.analysis.walkway.measured_walkway import SENSOR, measure_walkway
 from plantar.layouts.layout_file import layout_to_dict
 
 GRID = (36, 14)
@@ -43,7 +48,8 @@ class RecordingResult:
         key: Digest of file, options and version (`key_of`).
         format: Format's name; empty if unreadable.
         error: Why not measured, or empty.
-        rows: A row a step, with every measure, of regions as "region.measure"; None if unknown.
+        rows: A row a step, with every measure, of regions as "region.measure"; None if unknown. Of a stored result they
+            are read when they are asked for.
         feet: Each foot's mean of each measure, and "steps" used.
         curves: Each foot's mean vertical force (101,) in N over the stance.
         maps: Each foot's mean maximum pressure `GRID` in Pa, heel to toes, lateral to medial, NaN off the sole.
@@ -56,7 +62,7 @@ class RecordingResult:
     format: str
     error: str
     raw: bool
-    rows: tuple[Mapping[str, Any], ...]
+    rows: Sequence[Mapping[str, Any]]
     feet: Mapping[Side, Mapping[str, float]]
     curves: Mapping[Side, NDArray[np.float64]]
     maps: Mapping[Side, NDArray[np.float64]]
@@ -108,6 +114,8 @@ def measure_recording(
         insole_size=who.insole_size or given.insole_size,
     )
     known = with_layout(known, folder / who.layout) if who.layout else known
+    if is_walkway(folder / who.file):
+        return _of_walkway(folder, who, choices, digest, known, key_of(folder, who, digest, choices, options))
     subject = Subject(who.participant, who.mass_kg, who.foot_length_m)
     analysis = analyse_one(folder / who.file, None, known, choices=choices, subject=subject)
     recording = analysis.recording
@@ -127,6 +135,48 @@ def measure_recording(
         walk={k: v for k, v in analysis.metrics["gait"].items() if k != "symmetry_percent"},
         sensor=sensor_of(recording),
     )
+
+
+def _of_walkway(
+    folder: Path, who: Participation, choices: AnalysisOptions, digest: str, known: ReadOptions, key: str
+) -> RecordingResult:
+    found = measure_walkway(folder / who.file, known, choices, GRID)
+    rows = _step_rows(found.feet, who)
+    return RecordingResult(
+        who=who,
+        digest=digest,
+        key=key,
+        format="walkway",
+        error="",
+        raw=False,
+        rows=tuple(rows),
+        feet={side: _means(rows, side) for side in found.feet},
+        curves=found.curves,
+        maps=found.maps,
+        warnings=found.warnings,
+        walk=dict(gait_of_feet(found.feet)),
+        sensor=SENSOR,
+    )
+
+
+def _step_rows(feet: Mapping[Side, FootGait], who: Participation) -> list[dict[str, Any]]:
+    """Rows of steps in time order, as `_rows` of an analysis."""
+    steps = sorted((step for gait in feet.values() for step in gait.steps), key=lambda s: s.heel_strike_s)
+    regions = dict.fromkeys(name for step in steps for name in step.regions)
+    out = []
+    for step in steps:
+        known: dict[str, float | None] = {key: _known(step.measures.get(key)) for key in MEASURES}
+        for region in regions:
+            own = step.regions.get(region, {})
+            known |= {f"{region}.{key}": own.get(key) for key in REGION_MEASURES}
+        head = {"side": step.side, "step": step.number, "used": int(step.used), "note": step.unused or step.odd}
+        times = {"heel_strike_s": step.heel_strike_s, "toe_off_s": step.toe_off_s}
+        out.append({**head, **times, **known, **normalised(known, who)})
+    return out
+
+
+def _known(value: float | None) -> float | None:
+    return None if value is None or not math.isfinite(value) else value
 
 
 def _rows(analysis: Analysis, who: Participation) -> list[dict[str, Any]]:
@@ -222,23 +272,30 @@ def sampled(
     return np.asarray(found.reshape(GRID))
 
 
-def write_result(result: RecordingResult, path: Path) -> None:
-    """Store a result at a path (.npz) so that a stopped study can continue."""
-    plain = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ("curves", "maps")}
+def write_result(result: RecordingResult, path: Path) -> RecordingResult:
+    """Store a result at a path (.npz) so that a stopped study can continue; returns it with its steps left there."""
+    plain = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ("curves", "maps", "rows")}
     parts = zip(_ARRAYS, (result.curves, result.maps), strict=True)
     arrays: dict[str, Any] = {f"{part}{side}": values for part, of in parts for side, values in of.items()}
+    texts = {"text": {**plain, "rows": len(result.rows)}, "rows": list(result.rows)}
+    stored: dict[str, Any] = {
+        name: np.frombuffer(json.dumps(held, default=asdict).encode(), np.uint8) for name, held in texts.items()
+    }
     with replacing(path) as temporary, temporary.open("wb") as stream:
-        np.savez_compressed(stream, text=np.array(json.dumps(plain, default=asdict)), **arrays)
+        np.savez_compressed(stream, **stored, **arrays)
+    return replace(result, rows=StoredRows(path, len(result.rows)))
 
 
 def read_result(path: Path, key: str) -> RecordingResult | None:
-    """Returns stored result at a path; None if missing, damaged, or of another key."""
+    """Returns stored result at a path, its steps left there; None if missing, damaged, or of another key."""
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
-            plain = json.loads(str(held["text"]))
+            plain = json.loads(held["text"].tobytes())
             curves, maps = ({n[len(p) :]: held[n] for n in held.files if n.startswith(p)} for p in _ARRAYS)
-        plain |= {"who": Participation(**plain["who"])} | {k: tuple(plain[k]) for k in ("rows", "warnings", "sensor")}
+            whole = "rows" in held.files
+        plain |= {"who": Participation(**plain["who"])} | {k: tuple(plain[k]) for k in ("warnings", "sensor")}
+        plain["rows"] = StoredRows(path, int(plain["rows"]))
         found = RecordingResult(**plain, curves=curves, maps=maps)
     except Exception:  # a file that was cut short may raise anything; measuring again is always right
         return None
-    return found if found.key == key else None
+    return found if whole and found.key == key else None

@@ -4,10 +4,12 @@ import json
 import math
 import os
 import tempfile
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, islice
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +19,13 @@ from numpy.typing import NDArray
 from plantar.common.atomic import write_text
 from plantar.common.table_writer import csv_text, mapping_rows
 from plantar.common.version import VERSION
-from plantar.errors import InputError, PlantarError
+from plantar.common.workers.cluster_workers import ClusterWorkers
+from plantar.common.workers.local_workers import LocalWorkers
+from plantar.common.workers.workers import Job
+from plantar.errors import FormatError, InputError, PlantarError
 from plantar.formats import ReadOptions, formats
+from plantar.formats.step_table import masses_of_people, step_table_beside
+from plantar.formats.walkway import one_of_each_walk
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.results import as_data_frame
@@ -43,13 +50,16 @@ from plantar.gait.analysis.study.participants import Participation, not_read, re
 from plantar.gait.analysis.study.patient_page import patient_figures, patient_page
 from plantar.gait.analysis.study.reliability import Agreement, Reliability, agreements, reliabilities
 from plantar.gait.analysis.study.sample_size import people_needed
+from plantar.gait.analysis.study.stored_steps import columns_of, write_csv, write_parquet
 from plantar.gait.analysis.study.study_options import StudyOptions
 from plantar.gait.analysis.study.study_page import StudyParts, study_figures, study_page
-from plantar.gait.analysis.study.workbook import write_workbook
+from plantar.gait.analysis.study.workbook import MOST_ROWS, write_workbook
 
 _CACHE = "measured"  # Folder in the output folder that holds the result of each recording
 _SKIPPED_FORMATS = ("image",)
-_ALWAYS = ("steps", "recordings", "comparison")  # Tables that are written without rows, too
+_PAUSE = 0.2  # s: how soon a signal is seen where no result comes
+_PROVENANCE = ("format", "version", "options", "sha256")  # columns at the end of tables
+_ALWAYS = ("recordings", "comparison")  # Tables that are written without rows, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +108,20 @@ class Study:
     @cached_property
     def steps(self) -> dict[str, NDArray[Any]]:
         """Steps of all recordings as columns; NaN if unknown."""
-        return _columns(_step_rows(self))
+        return _columns(list(self.step_rows()))
+
+    def step_rows(self) -> Iterator[dict[str, Any]]:
+        """Yields a row of each step, one recording after another: all of a study of any size are never held."""
+        for result in self.results:
+            identity = _identity(result)
+            ends = _provenance(self, result)
+            for row in result.rows:
+                yield {**identity, **row, **ends}
+
+    def step_columns(self) -> list[str]:
+        """Columns of `step_rows`."""
+        heads = ({**_identity(r), **r.rows[0], **_provenance(self, r)} for r in self.results if len(r.rows))
+        return columns_of(heads, _PROVENANCE)
 
     def to_pandas(self) -> Any:
         """Steps as `pandas.DataFrame`; InputError without pandas."""
@@ -126,11 +149,10 @@ class Study:
         return StudyParts(self.changes, self.reliability, self.agreement, self.mixed)
 
     def tables(self) -> dict[str, list[dict[str, Any]]]:
-        """Rows of the study's tables by name; those without rows are left out."""
+        """Rows of the study's tables by name, but of single steps; those without rows are left out."""
         devices, agreed = self.agreement
         patient = self.patient
         known = {
-            "steps": _step_rows(self),
             "recordings": _recording_rows(self),
             "comparison": _effect_rows(self),
             "changes": [row for c in self.changes for row in _rows_of(c)],
@@ -162,7 +184,7 @@ class Study:
             "conditions": list(dict.fromkeys(r.who.condition for r in self.results if r.who.condition)),
             "steps": sum(len(r.rows) for r in self.results),
             "options": asdict(self.choices),
-            "plan": {key: value for key, value in asdict(self.plan).items() if key != "jobs"},
+            "plan": {key: value for key, value in asdict(self.plan).items() if key not in ("jobs", "scheduler")},
             "version": VERSION,
             "comparisons": [_plain(c) for c in self.comparisons],
             "changes": [_plain(c) for c in self.changes],
@@ -187,7 +209,7 @@ def run_study(
     study.xlsx. Results of equal options and version are reused. Unreadable recordings are rows with the reason.
 
     Args:
-        folder: With its subfolders.
+        folder: With its subfolders; or one file, which is measured alone.
         out: Output folder, made if needed.
         participants: Table of `read_participants`; nothing is compared without it.
         progress: As of `analyse_recording`, like `choices` and `figures`.
@@ -203,6 +225,8 @@ def run_study(
     """
     report = progress or (lambda fraction, text: None)
     root = Path(folder)
+    single = [] if root.is_dir() else [_unlisted(root.parent, root)]
+    root = root.parent if single else root
     target = Path(out)
     chosen = choices or AnalysisOptions()
     planned = plan or StudyOptions()
@@ -210,19 +234,21 @@ def run_study(
     listed = [] if participants is None else read_participants(participants)
     # A file's own name may begin or end with blanks.
     listed = [who if (root / who.file).is_file() else replace(who, file=who.file.strip()) for who in listed]
-    everything = [*listed, *_others(root, target, participants, {p.file for p in listed})]
+    everything = single or [*listed, *_others(root, target, participants, {p.file for p in listed})]
     if not everything:
         raise InputError(
             f"{root}: no recording in it; allowed: a folder with files of the formats of plantar list formats"
         )
     cache = target / _CACHE
     cache.mkdir(parents=True, exist_ok=True)
-    results = []
-    for i, result in enumerate(_measured(root, cache, everything, chosen, options, planned.jobs), 1):
-        report(0.9 * i / len(everything), f"{i} of {len(everything)}: {result.who.file}")
-        results.append(result)
+    tasks = [_Measurement(root, cache, who, chosen, options) for who in everything]
+    found: dict[_Measurement, RecordingResult] = {}
+    for task, result in _measured(tasks, planned):
+        found[task] = result
+        report(0.9 * len(found) / len(tasks), f"{len(found)} of {len(tasks)}: {task.who.file}")
+    results = [found[task] for task in tasks]
     report(0.9, "comparing")
-    if participants is not None:
+    if participants is not None or any(who.condition for who in everything):
         check_names(results, planned.factors if planned.factors != ("condition",) else (), planned.covariates)
     comparisons = [
         comparison
@@ -241,7 +267,7 @@ def _others(
     endings = tuple(s for f in formats().values() if f.name not in _SKIPPED_FORMATS for s in f.suffixes)
     apart = {target.resolve()} if target.exists() else set()
     table = Path(participants).resolve() if participants is not None else None
-    out: list[Participation] = []
+    out: list[Path] = []
     for path in sorted(root.rglob("*")):
         name = str(path.relative_to(root))
         hidden = any(part.startswith(".") for part in path.relative_to(root).parts)
@@ -249,54 +275,82 @@ def _others(
             continue
         if path.resolve() == table or apart & set(path.resolve().parents):
             continue
-        out.append(Participation(file=name, participant=path.stem, listed=False))
-    return out
+        out.append(path)
+    return [_unlisted(root, path) for path in one_of_each_walk(out)]
 
 
-def _measured(
-    root: Path,
-    cache: Path,
-    everything: Sequence[Participation],
-    choices: AnalysisOptions,
-    options: ReadOptions | None,
-    jobs: int,
-) -> Iterator[RecordingResult]:
-    """Results in the order of recordings, measured by one process or several; each is kept as soon as it is known."""
-    if jobs == 1:
-        yield from (_result(root, cache, who, choices, options) for who in everything)
+def _unlisted(root: Path, path: Path) -> Participation:
+    """A file that no table lists: of the person and footwear that its table of footsteps states, or of its own name."""
+    name = str(path.relative_to(root))
+    try:
+        steps = step_table_beside(path)
+    except FormatError:  # which measuring the file reports
+        steps = None
+    if steps is None or "participant" not in steps.who:
+        return Participation(file=name, participant=path.stem, listed=False)
+    who = steps.who["participant"]
+    more = {key: value for key, value in steps.who.items() if key == "speed"}
+    mass = masses_of_people(path).get(who)
+    return Participation(name, who, steps.who.get("footwear", ""), mass, more=more, listed=False)
+
+
+@dataclass(frozen=True, eq=False)
+class _Measurement:
+    """A worker's task: a recording of a study, and where its result is kept."""
+
+    root: Path
+    cache: Path
+    who: Participation
+    choices: AnalysisOptions
+    options: ReadOptions | None
+
+
+def _measured(tasks: Sequence[_Measurement], plan: StudyOptions) -> Iterator[tuple[_Measurement, RecordingResult]]:
+    """Tasks and results as they end; each result is kept as soon as it is known, so that a stopped study goes on."""
+    if plan.jobs == 1 and plan.scheduler is None:
+        yield from ((task, _result(task)) for task in tasks)
         return
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
+    job = Job(_result, _dead)
+    pool = LocalWorkers(plan.jobs, job) if plan.scheduler is None else ClusterWorkers(plan.scheduler, job)
+    with closing(pool):
+        left = deque(tasks)
+        running = 0
+        while left or running:
+            while left and pool.room > 0:
+                pool.submit(left.popleft())
+                running += 1
+            for task, result in pool.finished(_PAUSE):
+                running -= 1
+                yield task, result if isinstance(result, RecordingResult) else _failed(task, result)
 
-    with ProcessPoolExecutor(jobs, get_context("spawn")) as pool:
-        waiting = [pool.submit(_result, root, cache, who, choices, options) for who in everything]
-        try:
-            yield from (one.result() for one in waiting)
-        finally:
-            pool.shutdown(wait=True, cancel_futures=True)
+
+def _dead(reason: str) -> str:
+    return reason
 
 
-def _result(
-    root: Path, cache: Path, who: Participation, choices: AnalysisOptions, options: ReadOptions | None
-) -> RecordingResult:
-    path = root / who.file
+def _failed(task: _Measurement, reason: str) -> RecordingResult:
+    return RecordingResult(task.who, "", "", "", reason, False, (), {}, {}, {}, (), {})
+
+
+def _result(task: _Measurement) -> RecordingResult:
+    who = task.who
+    path = task.root / who.file
     digest = ""
     key = ""
     try:
-        if not path.resolve().is_relative_to(root.resolve()):
+        if not path.resolve().is_relative_to(task.root.resolve()):
             raise InputError(f"{who.file} is not in the study's folder")
         digest = digest_of(path)
-        key = key_of(root, who, digest, choices, options)
-        kept = cache / f"{key[:24]}.npz"
+        key = key_of(task.root, who, digest, task.choices, task.options)
+        kept = task.cache / f"{key[:24]}.npz"
         found = read_result(kept, key)
         if found is not None:
             return found
-        result = measure_recording(root, who, choices, digest, options)
+        result = measure_recording(task.root, who, task.choices, digest, task.options)
     except PlantarError as error:
-        text = str(error).replace(f"{path}: ", "").replace(f"{root}{os.sep}", "")
-        return RecordingResult(who, digest, key, "", text, False, (), {}, {}, {}, (), {})
-    write_result(result, kept)
-    return result
+        text = str(error).replace(f"{path}: ", "").replace(f"{task.root}{os.sep}", "")
+        return replace(_failed(task, text), digest=digest, key=key)
+    return write_result(result, kept)
 
 
 def _identity(result: RecordingResult) -> dict[str, Any]:
@@ -311,10 +365,6 @@ def _provenance(study: Study, result: RecordingResult) -> dict[str, Any]:
         "options": json.dumps(asdict(study.choices), sort_keys=True),
         "sha256": result.digest,
     }
-
-
-def _step_rows(study: Study) -> list[dict[str, Any]]:
-    return [{**_identity(r), **row, **_provenance(study, r)} for r in study.results for row in r.rows]
 
 
 def _recording_rows(study: Study) -> list[dict[str, Any]]:
@@ -348,7 +398,7 @@ def _names(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     names: dict[str, None] = {}
     for row in rows:
         if not names.keys() >= row.keys():
-            ends = [n for n in ("format", "version", "options", "sha256") if n in names]
+            ends = [n for n in _PROVENANCE if n in names]
             kept = [n for n in names if n not in ends]
             names = dict.fromkeys([*kept, *(n for n in row if n not in names and n not in ends), *ends])
             names |= dict.fromkeys(row)
@@ -393,8 +443,15 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
     for name, rows in tables.items():
         names = _names(rows)
         written.append(write_text(target / f"{name}.csv", csv_text(names, mapping_rows(names, rows))))
+    columns = study.step_columns()
+    if study.plan.parquet:
+        texts = {"side", "note", *_PROVENANCE, *(name for r in study.results for name in _identity(r))}
+        written.append(write_parquet(target / "steps.parquet", columns, study.step_rows(), texts))
+    else:
+        written.append(write_csv(target / "steps.csv", columns, study.step_rows()))
     if study.plan.workbook:
-        sheets = {name: (_names(rows), rows) for name, rows in tables.items()}
+        steps = {"steps": (columns, list(islice(study.step_rows(), MOST_ROWS)))}
+        sheets = steps | {name: (_names(rows), rows) for name, rows in tables.items()}
         written.append(write_workbook(target / "study.xlsx", sheets))
     summary = study.summary()
     written.append(write_text(target / "study.json", json.dumps(summary, indent=1, allow_nan=False) + "\n"))

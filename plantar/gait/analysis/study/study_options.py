@@ -16,7 +16,9 @@ class StudyOptions:
     are allowed for, as speed or age; `margin_percent`: differences up to this share of A's mean in percent are called
     equivalent; `devices`: column of two devices whose agreement is stated; `patient`: participant who is compared with
     the others, of condition or group `norm` if given; `mixed`: whether mixed models with steps in people are fitted;
-    `workbook`: whether an Excel workbook is written; `jobs`: processes that measure recordings.
+    `workbook`: whether an Excel workbook is written; `parquet`: whether steps are written as steps.parquet instead of
+    steps.csv; `jobs`: processes that measure recordings; `scheduler`: address of a Dask scheduler whose workers measure
+    them instead, which see the folders under the same paths.
     """
 
     factors: tuple[str, ...] = ("condition",)
@@ -28,6 +30,8 @@ class StudyOptions:
     mixed: bool = False
     workbook: bool = False
     jobs: int = 1
+    parquet: bool = False
+    scheduler: str | None = None
 
     def __post_init__(self) -> None:
         if not self.factors:

@@ -9,9 +9,8 @@ from concurrent.futures import CancelledError, Future
 from contextlib import suppress
 
 from plantar.common.optional_library import optional_library
+from plantar.common.workers.workers import Job, Row, Task, Workers
 from plantar.errors import InputError, PlantarError, WorkerError
-from plantar.sim.sweep.task import Row, Task, failed, run_task
-from plantar.sim.sweep.workers import Workers
 
 _ADDRESS = re.compile(r"(?:(?P<scheme>[a-z]+)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[A-Za-z0-9_.-]+):(?P<port>\d{1,5})/?")
 _THIS_PROCESS = re.compile(r"inproc://[0-9a-fA-F.:]+/\d+/\d+")  # as `LocalCluster(protocol="inproc://")` names itself
@@ -69,8 +68,9 @@ class ClusterWorkers(Workers):
     `allowed-failures` allows.
     """
 
-    def __init__(self, address: str) -> None:
+    def __init__(self, address: str, job: Job) -> None:
         super().__init__()
+        self._job = job
         with optional_library("distributed", "cluster"):
             from distributed import Client, KilledWorker, Security
         for name in _LOGS:  # one line replaces what they report of a scheduler that is gone
@@ -98,7 +98,7 @@ class ClusterWorkers(Workers):
 
     def _begin(self, task: Task) -> Future[Row]:
         try:
-            future: Future[Row] = self._executor.submit(run_task, task)
+            future: Future[Row] = self._executor.submit(self._job.run, task)
         except Exception as error:  # a client whose scheduler has just gone raises what it happens to meet
             raise WorkerError(f"{self._scheduler} takes no runs ({type(error).__name__})") from None
         return future
@@ -107,7 +107,7 @@ class ClusterWorkers(Workers):
         try:
             return [future.result()]
         except self._killed as error:
-            return [failed(f"the worker died in this run, {error.allowed_failures + 1} times")]
+            return [self._job.failed(f"the worker died in this run, {error.allowed_failures + 1} times")]
         except CancelledError:
             raise WorkerError(f"{self._scheduler} went away") from None
         except PlantarError:

@@ -10,11 +10,17 @@ from typing import Any
 
 import pytest
 
+from plantar.common.workers.local_workers import LocalWorkers
+from plantar.common.workers.workers import TRIES, Job
 from plantar.errors import WorkerError
-from plantar.sim.sweep.workers import TRIES, LocalWorkers
 
 psutil = pytest.importorskip("psutil")
 WAIT = 120.0
+
+
+def failed(reason: str) -> dict[str, str]:
+    """The row of a task whose workers died."""
+    return {"error": reason}
 
 
 def processes() -> list[Any]:
@@ -32,7 +38,7 @@ def answers(pool: LocalWorkers, count: int) -> Iterator[Any]:
 
 
 def test_tasks_run_beside_one_another_and_no_more_than_there_is_room_for():
-    with closing(LocalWorkers(2, str)) as pool:
+    with closing(LocalWorkers(2, Job(str, failed))) as pool:
         left = list(range(5))
         done = []
         while len(done) < 5:
@@ -46,17 +52,16 @@ def test_tasks_run_beside_one_another_and_no_more_than_there_is_room_for():
 
 
 def test_a_run_that_kills_its_worker_is_tried_again_and_then_becomes_a_row():
-    with closing(LocalWorkers(1, os._exit)) as pool:
+    with closing(LocalWorkers(1, Job(os._exit, failed))) as pool:
         pool.submit(7)
         ((task, row),) = answers(pool, 1)
         assert task == 7
-        assert row["completed"] is False
         assert f"{TRIES} times of {TRIES} (as when memory runs out)" in row["error"]
         assert pool.room == 1
 
 
 def test_a_killed_worker_is_replaced_and_its_run_begins_again():
-    with closing(LocalWorkers(1, time.sleep)) as pool:
+    with closing(LocalWorkers(1, Job(time.sleep, failed))) as pool:
         pool.submit(1.0)
         deadline = time.monotonic() + WAIT
         (worker,) = pool._busy.values()
@@ -73,7 +78,7 @@ def test_a_killed_worker_is_replaced_and_its_run_begins_again():
 
 
 def test_closing_ends_workers_in_the_middle_of_a_run():
-    pool = LocalWorkers(2, time.sleep)
+    pool = LocalWorkers(2, Job(time.sleep, failed))
     pool.submit(600.0)
     pool.submit(601.0)
     until = time.monotonic() + WAIT
@@ -87,14 +92,14 @@ def test_closing_ends_workers_in_the_middle_of_a_run():
 def test_workers_that_cannot_begin_end_the_sweep(monkeypatch):
     """Their module search path leads nowhere, so that they end while they load."""
     monkeypatch.setattr("multiprocessing.spawn.get_command_line", lambda **_: ["/bin/false"])
-    with closing(LocalWorkers(1, str)) as pool:
+    with closing(LocalWorkers(1, Job(str, failed))) as pool:
         pool.submit(0)
         with pytest.raises(WorkerError, match=r"end before they are ready"):
             list(answers(pool, 1))
 
 
 def test_an_error_that_stops_all_runs_is_raised_after_the_rows_that_came():
-    with closing(LocalWorkers(1, resolve_name)) as pool:
+    with closing(LocalWorkers(1, Job(resolve_name, failed))) as pool:
         pool.submit("json:__name__")
         assert list(answers(pool, 1)) == [("json:__name__", "json")]
         pool.submit("no_such_library")
@@ -107,5 +112,8 @@ def test_a_system_that_gives_no_process_is_one_line(monkeypatch):
         raise BlockingIOError(11, "Resource temporarily unavailable")
 
     monkeypatch.setattr("multiprocessing.process.BaseProcess.start", no_more)
-    with closing(LocalWorkers(1, str)) as pool, pytest.raises(WorkerError, match=r"can be started .Resource"):
+    with (
+        closing(LocalWorkers(1, Job(str, failed))) as pool,
+        pytest.raises(WorkerError, match=r"can be started .Resource"),
+    ):
         pool.submit(0)

@@ -4,8 +4,11 @@ import time
 
 import pytest
 
+from plantar.common.workers.cluster_workers import ClusterWorkers, check_address, network_note
+from plantar.common.workers.workers import Job
 from plantar.errors import InputError
-from plantar.sim.sweep.cluster import ClusterWorkers, check_address, network_note
+
+JOB = Job(str, str)
 
 
 @pytest.mark.parametrize(
@@ -14,14 +17,14 @@ from plantar.sim.sweep.cluster import ClusterWorkers, check_address, network_not
 def test_another_address_is_refused_at_once(address):
     begun = time.process_time()
     with pytest.raises(InputError, match=r"allowed: tcp://HOST:PORT, or tls://HOST:PORT"):
-        ClusterWorkers(address)
+        ClusterWorkers(address, JOB)
     assert time.process_time() - begun < 5.0
 
 
 def test_tls_without_certificates_is_one_line():
     pytest.importorskip("distributed")
     with pytest.raises(InputError, match=r"no Dask scheduler answers at tls://127\.0\.0\.1:8786: TLS"):
-        ClusterWorkers("tls://127.0.0.1:8786")
+        ClusterWorkers("tls://127.0.0.1:8786", JOB)
 
 
 def test_a_scheduler_that_anybody_may_be_is_reported():

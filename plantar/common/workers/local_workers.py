@@ -1,94 +1,29 @@
-"""What runs the tasks of a sweep, as futures; here processes of this machine, one run at a time each."""
+"""Workers that are processes of this machine, one task at a time each."""
 
 import os
 import signal
 import threading
-from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from multiprocessing import get_context, resource_tracker
 from typing import Any
 
+from plantar.common.workers.workers import TRIES, Job, Row, Task, Workers
 from plantar.errors import PlantarError, WorkerError
-from plantar.sim.sweep.task import Row, Task, failed, run_task
-
-TRIES = 3
-"""How often a run is begun before its row reports that its workers died."""
 
 _STARTS = 3  # workers in a row that end before they are ready: no other will do better
-
-
-class Workers(ABC):
-    """Runs the tasks of a sweep."""
-
-    def __init__(self) -> None:
-        self._running: dict[Future[Row], Task] = {}
-        self._error: PlantarError | None = None
-
-    @property
-    def room(self) -> int:
-        """How many more tasks can be taken."""
-        return self._capacity() - len(self._running)
-
-    def submit(self, task: Task) -> None:
-        """Begin a task."""
-        self._running[self._begin(task)] = task
-
-    def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait for a task's end, or a time in s; return ended tasks with rows.
-
-        Raises:
-            WorkerError: If the workers cannot go on.
-            PlantarError: If no run is possible.
-        """
-        if self._error is None:
-            done = wait(self._running, timeout, FIRST_COMPLETED).done
-            rows = [found for future in done for found in self._taken(future)]
-            if rows:
-                return rows
-        if self._error is not None:
-            raise self._error
-        self._check()
-        return []
-
-    def _taken(self, future: Future[Row]) -> list[tuple[Task, Row]]:
-        task = self._running.pop(future)
-        try:
-            return [(task, row) for row in self._outcome(task, future)]
-        except PlantarError as error:  # raised after the rows that have come
-            self._error = error
-            return []
-
-    @abstractmethod
-    def close(self) -> None:
-        """End the workers at once."""
-
-    @abstractmethod
-    def _capacity(self) -> int:
-        """How many tasks may run."""
-
-    @abstractmethod
-    def _begin(self, task: Task) -> Future[Row]: ...
-
-    @abstractmethod
-    def _outcome(self, task: Task, future: Future[Row]) -> Sequence[Row]:
-        """The row of an ended task; none where it was begun again."""
-
-    @abstractmethod
-    def _check(self) -> None:
-        """Raise a WorkerError if no row will come any more."""
 
 
 class _Worker:
     """An executor of one process: where that dies, it is known in which run."""
 
-    def __init__(self, ended: Any) -> None:
+    def __init__(self, ended: Any, load: Callable[[], object]) -> None:
         context = get_context("spawn")
         self.executor = ProcessPoolExecutor(1, context, initializer=_end_when_closed, initargs=(ended,))
-        self._loaded = self.submit(_load)
+        self._loaded = self.submit(load)
 
     @property
     def ready(self) -> bool:
@@ -101,12 +36,12 @@ class _Worker:
 
 
 class LocalWorkers(Workers):
-    """At most `count` processes that `run` tasks by an importable function; a dead one's task starts again."""
+    """At most `count` processes of this machine that do a job; a dead one's task starts again."""
 
-    def __init__(self, count: int, run: Callable[[Task], Row] = run_task) -> None:
+    def __init__(self, count: int, job: Job) -> None:
         super().__init__()
         self._count = count
-        self._run = run
+        self._job = job
         self._idle: list[_Worker] = []
         self._busy: dict[Future[Row], _Worker] = {}
         self._deaths: Counter[Task] = Counter()
@@ -129,9 +64,9 @@ class LocalWorkers(Workers):
     def _begin(self, task: Task) -> Future[Row]:
         try:
             while True:
-                worker = self._idle.pop() if self._idle else _Worker(self._ended)
+                worker = self._idle.pop() if self._idle else _Worker(self._ended, self._job.load)
                 with suppress(BrokenProcessPool):  # it died while it was idle
-                    future = worker.submit(self._run, task)
+                    future = worker.submit(self._job.run, task)
                     self._busy[future] = worker
                     return future
         except OSError as error:
@@ -159,13 +94,11 @@ class LocalWorkers(Workers):
         if self._false_starts == _STARTS:
             raise WorkerError("worker processes end before they are ready")
         if self._deaths[task] == TRIES:
-            return [failed(f"the worker died in this run, {TRIES} times of {TRIES} (as when memory runs out)")]
+            return [
+                self._job.failed(f"the worker died in this run, {TRIES} times of {TRIES} (as when memory runs out)")
+            ]
         self.submit(task)
         return []
-
-
-def _load() -> None:
-    import plantar.sim.run.runner  # noqa: F401  the heavy part, so that what dies from here on died of its run
 
 
 def _end_when_closed(pipe: Any) -> None:

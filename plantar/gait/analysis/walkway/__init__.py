@@ -1,0 +1,1 @@
+"""Footsteps of walkways and stacks, measured one by one: recordings of any size."""
