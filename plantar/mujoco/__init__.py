@@ -24,8 +24,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from plantar.mujoco.bound_skin import BoundSkin, SkinReading
     from plantar.mujoco.skin import Skin
+    from plantar.mujoco.skins import Skins
 
-__all__ = ["BoundSkin", "Skin", "SkinReading"]
+__all__ = ["BoundSkin", "Skin", "SkinReading", "Skins"]
 
 if not TYPE_CHECKING:
 
@@ -36,4 +37,5 @@ if not TYPE_CHECKING:
         from plantar.common.optional_library import need_libraries
 
         need_libraries("sim", "mujoco", "scipy")
-        return getattr(import_module("plantar.mujoco.skin" if name == "Skin" else "plantar.mujoco.bound_skin"), name)
+        home = {"Skin": "skin", "Skins": "skins"}.get(name, "bound_skin")
+        return getattr(import_module(f"plantar.mujoco.{home}"), name)

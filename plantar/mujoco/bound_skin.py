@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
 from threading import Lock
 from typing import Any
 
@@ -14,6 +15,7 @@ from plantar.common.arguments import integer, items
 from plantar.common.arrays import array
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
+from plantar.kernels.base import vectors
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.kernels.contacts.taxel_load import TaxelLoad
@@ -29,7 +31,8 @@ _PASSED = 20  # surfaces of its own that a ray passes at most
 LoadMaker = Callable[[], PatchLoad]
 """Makes the kernel of a patch that wraps."""
 
-_MOST_DATA = 64  # whose contacts it keeps in view, and so in memory, unless more are read at once
+MOST_DATA = 64
+"""How many MjData have their contacts kept in view, and so in memory, unless more are read at once."""
 
 
 class SkinReading(Reading):
@@ -44,10 +47,25 @@ class SkinReading(Reading):
             beyond the taxels or the body is pressed from above as well.
     """
 
-    vectors: NDArray[np.float64]
-    wrench: NDArray[np.float64]
-    depth: NDArray[np.float64]
     carried: bool
+    _block: NDArray[np.float64]
+
+    @cached_property
+    def vectors(self) -> NDArray[np.float64]:
+        """Force (n, 3) on each taxel in N."""
+        count = len(self.force)
+        return self._block[2 * count : 5 * count].reshape(count, 3)
+
+    @cached_property
+    def wrench(self) -> NDArray[np.float64]:
+        """Wrench (6,) of MuJoCo's contacts on body about sole origin in N and N m."""
+        return self._block[5 * len(self.force) :]
+
+    @cached_property
+    def depth(self) -> NDArray[np.float64]:
+        """Overlap (n,) of geoms in m, 0 elsewhere."""
+        count = len(self.force)
+        return self._block[count : 2 * count]
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
@@ -56,7 +74,7 @@ class SkinReading(Reading):
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _made, (self.time, self.force, self.proximity, self.vectors, self.wrench, self.depth, self.carried)
+        return _made, (self.time, self._block, self.proximity, self.carried)
 
 
 class BoundSkin:
@@ -70,6 +88,7 @@ class BoundSkin:
         position_in_body: Sole origin (3,) in the body's frame in m.
         rotation_to_body: Rotation (3, 3) from sole to body.
         reach: Gap in m up to which an unloaded contact counts as near.
+        proximity_range: Of proximity sensors in m; None for none.
         static: Taxels' places, axes, areas, widths, and hull of places, as in `TaxelLoad`.
     """
 
@@ -94,7 +113,7 @@ class BoundSkin:
         self.position_in_body = np.array(position)
         self.rotation_to_body = np.array(rotation)
         self.reach = reach
-        self._range = proximity
+        self.proximity_range = proximity
         self._nearest = _least_gaps(model, body).tolist()
         self.make_load = make_load
         axes = layout.rotations[:, :, 2]
@@ -113,8 +132,8 @@ class BoundSkin:
             np.array(widths),
             np.ascontiguousarray(convex_hull(layout.positions[:, :2])),
         )
-        self._views: dict[int, _View] = {}
-        self._most = _MOST_DATA
+        self._views: dict[int, SkinView] = {}
+        self._most = MOST_DATA
 
     def __len__(self) -> int:
         return len(self.layout)
@@ -126,10 +145,7 @@ class BoundSkin:
         """Read the skin after a step or `mj_forward`; InputError for another model's MjData."""
         view = self._views.get(id(data)) or self._look_in(data)
         with view.lock:
-            load = view.load()
-            near = None if self._range is None else self._distances(view)
-            now = load.forces.copy(), near, load.vectors.copy(), load.wrench.copy(), load.depths.copy(), load.carried
-        return _made(data.time, *now)
+            return view.reading(view.contacts(), data.time)
 
     @property
     def is_patch(self) -> bool:
@@ -148,7 +164,7 @@ class BoundSkin:
             rotations=self.rotation_to_body @ layout.rotations,
             areas=layout.areas,
             force_threshold=level,
-            proximity_range=self._range or 0.0,
+            proximity_range=self.proximity_range or 0.0,
             neighbours=layout.neighbours,
         )
 
@@ -190,7 +206,7 @@ class BoundSkin:
                     vectors[i] = load.vectors
                     wrenches[i] = load.wrench
 
-        _shared(work, integer(threads, "threads", 1))
+        shared_work(work, integer(threads, "threads", 1))
         return vectors, wrenches
 
     def rollout(
@@ -222,7 +238,7 @@ class BoundSkin:
 
         def work(thread: int) -> None:
             data = mujoco.MjData(self.model)
-            view = _View(self, data)
+            view = SkinView(self, data)
             for i in range(len(flat) * thread // threads, len(flat) * (thread + 1) // threads):
                 mujoco.mj_setState(self.model, data, flat[i], kind)
                 if control is not None:
@@ -232,10 +248,11 @@ class BoundSkin:
                 vectors[i] = load.vectors
                 wrenches[i] = load.wrench
 
-        _shared(work, threads)
+        shared_work(work, threads)
         return vectors.reshape(*lead, len(self), 3), wrenches.reshape(*lead, 6)
 
-    def _look_in(self, data: Any) -> "_View":
+    def check(self, data: Any) -> None:
+        """InputError unless `data` is a `mujoco.MjData` of the skin's model."""
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
@@ -248,19 +265,22 @@ class BoundSkin:
             and all(np.array_equal(getattr(other, n)[own], getattr(model, n)[own]) for n in ("geom_size", "geom_pos"))
         ):
             raise InputError("the data are of another model than the skin was bound to; bind it to that model")
+
+    def _look_in(self, data: Any) -> "SkinView":
+        self.check(data)
         if len(self._views) >= self._most:
             self._views.pop(next(iter(self._views)), None)
-        view = _View(self, data)
+        view = SkinView(self, data)
         self._views[id(data)] = view
         return view
 
-    def _distances(self, view: "_View") -> NDArray[np.float64]:
+    def distances(self, view: "SkinView") -> NDArray[np.float64]:
         """Distance (n,) outwards to another body in m; inf beyond range."""
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
         geom = np.empty(1, dtype=np.int32)
         out = np.full(len(self), math.inf)
-        reach = float(self._range or 0.0)
+        reach = float(self.proximity_range or 0.0)
         nearest = self._nearest
         for i, (start, axis) in enumerate(zip(starts, axes, strict=True)):
             gap = mujoco.mj_ray(self.model, view.data, start, -axis, None, 1, self.body, geom) - _LIFT
@@ -274,36 +294,75 @@ class BoundSkin:
         return out
 
 
-class _View:
-    """A skin's contacts in one MjData, alive with it."""
+class SkinView:
+    """A skin's contacts in one MjData, alive with it; of one thread at a time.
+
+    `looks`: whether it reads more than contacts; `origin` (3,), `rotation` (3, 3): the sole's in the world, at the last
+    load.
+    """
 
     def __init__(self, skin: BoundSkin, data: Any) -> None:
-        # of one thread at a time
         self.data = data
         self.lock = Lock()
+        self.looks = skin.proximity_range is not None
+        self.origin = np.zeros(3)
+        self.rotation = np.eye(3)
+        self._skin = skin
         self._reader = ContactReader(skin.model, data, (skin.geom_ids,))
         self._load: Any = TaxelLoad(*skin.static) if skin.make_load is None else skin.make_load()
         self._seen = ContactsInSole()
         self._reach = skin.reach
-        self._place = data.xpos[skin.body]
-        self._turn = data.xmat[skin.body].reshape(3, 3)
-        self._position = skin.position_in_body
-        self._rotation = skin.rotation_to_body
-        self.origin = np.zeros(3)
-        self.rotation = np.eye(3)
-        self._seen.look_from(self.origin, self.rotation)
+        self._still = np.zeros(len(self._load.block))
+        self._no_force = self._still[: len(skin)]
+        vectors.close(self._no_force)
+        seat = np.ascontiguousarray(skin.rotation_to_body)
+        at = data.xpos[skin.body]
+        self._seen.ride_on(at, data.xmat[skin.body], skin.position_in_body, seat, self.origin, self.rotation)
+
+    def contacts(self) -> FootContacts:
+        """The skin's contacts now; always the same object."""
+        found: FootContacts = self._reader.read()[0]
+        return found
 
     def load(self) -> Any:
         """The taxels' load now, a `TaxelLoad` or `PatchLoad`; always the same object."""
-        foot: FootContacts = self._reader.read()[0]
-        np.dot(self._turn, self._rotation, self.rotation)
-        np.dot(self._turn, self._position, self.origin)
-        self.origin += self._place
-        self._load.press(foot, self._seen, self._reach)
-        if math.isnan(self._load.wrench[2]):  # diverged: neither in the air nor on the ground
-            self._load.vectors[:] = math.nan
-            self._load.forces[:, None] = math.nan
-        return self._load
+        return self.press(self.contacts())
+
+    def press(self, foot: FootContacts) -> Any:
+        """As `load`, of the skin's contacts now."""
+        self._seen.look()
+        load = self._load
+        load.press(foot, self._seen, self._reach)
+        if load.is_lost():  # diverged: neither in the air nor on the ground
+            load.vectors[:] = math.nan
+            load.forces[:] = math.nan
+        return load
+
+    def reading(self, foot: FootContacts, time: float) -> SkinReading:
+        """The reading of the skin's contacts now."""
+        load = self.press(foot)
+        near = self._skin.distances(self) if self.looks else None
+        block = load.block.copy()
+        reading = _NEW(SkinReading)
+        force = block[: len(self._no_force)]
+        vectors.close(force)
+        reading._keep(time, force, near, None, None)
+        fields = reading.__dict__
+        fields["_block"] = block
+        fields["carried"] = load.carried
+        return reading
+
+    def still(self, time: float) -> SkinReading:
+        """The reading of a skin that nothing touches, which only looks at contacts."""
+        reading = _NEW(SkinReading)
+        reading._keep(time, self._no_force, None, None, None)
+        fields = reading.__dict__
+        fields["_block"] = self._still
+        fields["carried"] = True
+        return reading
+
+
+_NEW = SkinReading.__new__
 
 
 def _least_gaps(model: Any, body: int) -> NDArray[np.float64]:
@@ -318,21 +377,17 @@ def _least_gaps(model: Any, body: int) -> NDArray[np.float64]:
     return np.where(of_geoms == weld[body], math.inf, gaps)
 
 
-def _made(
-    time: float,
-    force: NDArray[np.float64],
-    proximity: NDArray[np.float64] | None,
-    vectors: NDArray[np.float64],
-    wrench: NDArray[np.float64],
-    depth: NDArray[np.float64],
-    carried: bool,
-) -> SkinReading:
-    reading = SkinReading.taken_over(time, force, proximity)
-    reading.__dict__.update(vectors=vectors, wrench=wrench, depth=depth, carried=carried)
+def _made(time: float, block: NDArray[np.float64], proximity: NDArray[np.float64] | None, carried: bool) -> SkinReading:
+    """A reading of a kernel's `block`, made for it: forces, depths, vectors and wrench one after the other."""
+    reading = SkinReading.taken_over(time, block[: (len(block) - 6) // 5], proximity)
+    fields = reading.__dict__
+    fields["_block"] = block
+    fields["carried"] = carried
     return reading
 
 
-def _shared(work: Any, threads: int) -> None:
+def shared_work(work: Any, threads: int) -> None:
+    """Call `work` once a thread, with its number."""
     if threads == 1:
         work(0)
     else:

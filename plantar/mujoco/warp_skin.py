@@ -40,6 +40,8 @@ class WarpSkin:
 
         self._wp = wp
         self._skin = instance(skin, BoundSkin, "skin")
+        if skin.is_patch:
+            raise InputError("the skin is a patch that wraps, which MuJoCo Warp's form does not read; allowed: a sole")
         self._worlds = integer(worlds, "worlds", 1)
         room = integer(contacts, "contacts", 1)
         self._elliptic = bool(skin.model.opt.cone) if elliptic is None else elliptic

@@ -1,7 +1,7 @@
 """Skin on a body's links: taxels, and wrenches of their readings."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -59,6 +59,10 @@ class SkinPatch:
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    def named(self, name: str) -> "SkinPatch":
+        """The same patch by another name."""
+        return replace(self, name=name)
 
     @property
     def is_flat(self) -> bool:

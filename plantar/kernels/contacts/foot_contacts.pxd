@@ -55,8 +55,19 @@ cdef class ContactsInSole:
     cdef double[:, ::1] shifted
     cdef readonly double[:, ::1] vectors, normals
     cdef const double[:, :] axes
+    cdef const double[::1] body_place, body_turn, place
+    cdef const double[:, ::1] seat
+    cdef double[::1] own_origin
+    cdef double[:, ::1] own_axes
+    cdef bint rides
     cdef list rows, heads
     cpdef look_from(self, const double[::1] origin, rotation)
     cdef _make_room(self, Py_ssize_t room)
+    cpdef ride_on(
+        self, const double[::1] body_place, const double[::1] body_turn, const double[::1] place,
+        const double[:, ::1] seat, double[::1] origin, double[:, ::1] axes
+    )
+    @cython.locals(at=double)
+    cpdef void look(self) noexcept
     cpdef turn(self, FootContacts contacts)
     cpdef void turn_normals(self, FootContacts contacts) noexcept

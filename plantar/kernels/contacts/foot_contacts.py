@@ -244,6 +244,7 @@ class ContactsInSole:
         self.origin = np.zeros(3)
         self.rotation = np.eye(3)
         self.axes = np.eye(3)
+        self.rides = False
         self.pressed = 0
         self.in_air = 0
         self.room = 0
@@ -254,6 +255,37 @@ class ContactsInSole:
         self.origin = origin
         self.rotation = rotation
         self.axes = rotation
+        self.rides = False
+
+    def ride_on(self, body_place, body_turn, place, seat, origin, axes):
+        """Look from a sole that rides on a body, wherever that is at each `look`; contacts are turned without BLAS.
+
+        `body_place` (3,) in m and `body_turn` (9,): the body's pose, which the simulator changes; `place` (3,) in m and
+        `seat` (3, 3): the sole's in the body; `origin` (3,) and `axes` (3, 3): receive the sole's in the world.
+        """
+        self.body_place = body_place
+        self.body_turn = body_turn
+        self.place = place
+        self.seat = seat
+        self.own_origin = origin
+        self.own_axes = axes
+        self.origin = origin
+        self.axes = axes
+        self.rides = True
+
+    def look(self):
+        """Find the pose of the sole on its body now."""
+        turn = self.body_turn
+        for i in range(3):
+            at = self.body_place[i]
+            for j in range(3):
+                at += turn[3 * i + j] * self.place[j]
+                self.own_axes[i, j] = (
+                    turn[3 * i] * self.seat[0, j]
+                    + turn[3 * i + 1] * self.seat[1, j]
+                    + turn[3 * i + 2] * self.seat[2, j]
+                )
+            self.own_origin[i] = at
 
     def _make_room(self, room):
         self.room = room
@@ -275,7 +307,16 @@ class ContactsInSole:
         if count > self.room:
             self._make_room(2 * count)
         contacts.from_origin(self.origin, self.shifted)
-        if count == 1:  # BLAS adds up in another order for a single contact than for several
+        if self.rides:
+            turn = self.axes
+            for k in range(3 * count):
+                for j in range(3):
+                    self.vectors[k, j] = (
+                        self.shifted[k, 0] * turn[0, j]
+                        + self.shifted[k, 1] * turn[1, j]
+                        + self.shifted[k, 2] * turn[2, j]
+                    )
+        elif count == 1:  # BLAS adds up in another order for a single contact than for several
             for shifted, turned in self.rows:
                 _dot(shifted, self.rotation, turned)
         else:

@@ -1,4 +1,5 @@
 cimport cython
+from libc cimport math
 from .foot_contacts cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 from . cimport pressed_patch
@@ -15,12 +16,13 @@ cdef class PatchLoad:
     cdef const double[:, ::1] frames, sizes, planes
     cdef const double[::1] limits
     cdef const double[:, ::1] polygon, turn
-    cdef readonly object vectors, forces, depths, wrench
+    cdef readonly object block, vectors, forces, depths, wrench
     cdef double[:, ::1] _vectors, rows
     cdef double[::1] _forces, _depths, _wrench, place, face, local
     cdef int[::1] cells
     cdef readonly bint carried, touched
     cpdef void clear(self) noexcept
+    cpdef bint is_lost(self) noexcept
     @cython.locals(
         extent=double, load=double, gap=double, half=double, geom=Py_ssize_t, nx=double, ny=double, nz=double
     )

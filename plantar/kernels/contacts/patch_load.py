@@ -65,13 +65,14 @@ class PatchLoad:
         self.limits = limits
         self.polygon = polygon
         self.turn = turn
-        self.vectors = np.zeros((count, 3))
-        self._vectors = self.vectors
-        self.forces = np.zeros(count)
+        self.block = np.zeros(5 * count + 6)  # all of them, to be copied at once
+        self.forces = self.block[:count]
         self._forces = self.forces
-        self.depths = np.zeros(count)
+        self.depths = self.block[count : 2 * count]
         self._depths = self.depths
-        self.wrench = np.zeros(6)
+        self.vectors = self.block[2 * count : 5 * count].reshape(count, 3)
+        self._vectors = self.vectors
+        self.wrench = self.block[5 * count :]
         self._wrench = self.wrench
         self.rows = np.zeros((max(count, 1), 3))
         self.cells = np.zeros(max(count, 1), dtype=np.int32)
@@ -93,6 +94,10 @@ class PatchLoad:
             self._vectors[i, 2] = 0.0
         self.carried = True
         self.touched = False
+
+    def is_lost(self):
+        """Whether the contacts' load is not a number: the simulation diverged."""
+        return self._wrench[2] != self._wrench[2]
 
     def press(self, contacts, seen, reach):
         """Set the attributes from the body's `FootContacts`, turned by `ContactsInSole`; a contact without load counts

@@ -1,4 +1,5 @@
 cimport cython
+from libc cimport math
 from .foot_contacts cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 from . cimport pressed_patch
@@ -12,13 +13,14 @@ cdef class TaxelLoad:
     cdef const double[::1] areas, widths
     cdef const double[:, ::1] hull
     cdef bint level
-    cdef readonly object vectors, forces, depths, wrench
+    cdef readonly object block, vectors, forces, depths, wrench
     cdef double[:, ::1] _vectors
     cdef double[::1] middle, _forces, _depths, _wrench, weights, prior, normal, gaps
     cdef readonly bint carried
     cdef Py_ssize_t room
     cdef double[:, ::1] points, ring, edges, rows, sums
     cdef int _make_room(self, Py_ssize_t room) except -1
+    cpdef bint is_lost(self) noexcept
     cpdef press(self, FootContacts contacts, ContactsInSole seen, double reach)
     @cython.locals(sums="double[:, ::1]")
     cdef bint _sum(self, FootContacts contacts, double[:, ::1] vectors) noexcept
@@ -26,7 +28,7 @@ cdef class TaxelLoad:
     cdef void _spread_pairs(self, FootContacts contacts, const double[:, ::1] vectors, double reach) noexcept
     @cython.locals(total=double)
     cdef void _even(self, double force) noexcept
-    @cython.locals(length=double, least=double, shift=double, share=double)
+    @cython.locals(length=double, least=double, shift=double, share=double, at_x=double, at_y=double)
     cdef void _cover(self, Py_ssize_t size) noexcept
     @cython.locals(total=double, depth=double)
     cdef void _press_deep(self, Py_ssize_t size) noexcept

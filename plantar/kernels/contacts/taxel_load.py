@@ -42,13 +42,14 @@ class TaxelLoad:
         self.hull = hull
         self.middle = hull.mean(axis=0)
         self.level = bool((positions[:, 2] == 0.0).all())
-        self.vectors = np.zeros((count, 3))
-        self._vectors = self.vectors
-        self.forces = np.zeros(count)
+        self.block = np.zeros(5 * count + 6)  # all of them, to be copied at once
+        self.forces = self.block[:count]
         self._forces = self.forces
-        self.depths = np.zeros(count)
+        self.depths = self.block[count : 2 * count]
         self._depths = self.depths
-        self.wrench = np.zeros(6)
+        self.vectors = self.block[2 * count : 5 * count].reshape(count, 3)
+        self._vectors = self.vectors
+        self.wrench = self.block[5 * count :]
         self._wrench = self.wrench
         self.sums = np.zeros((2, 6))  # wrench of contacts that the sole has, and of those from above
         self.weights = np.zeros(count)
@@ -64,6 +65,10 @@ class TaxelLoad:
         self.points = np.zeros((room, 3))  # x, y and overlap
         self.ring = np.zeros((2 * room + 2, 2))
         self.edges = np.zeros((2 * room + 2, 3))  # direction and length of each edge of the ring
+
+    def is_lost(self):
+        """Whether the contacts' load is not a number: the simulation diverged."""
+        return self._wrench[2] != self._wrench[2]
 
     def press(self, contacts, seen, reach):
         """Set the attributes from the sole's `FootContacts`, turned by `ContactsInSole`; a contact without load counts
@@ -158,8 +163,15 @@ class TaxelLoad:
             self.edges[k, 2] = length
             self.edges[k, 0], self.edges[k, 1] = (x / length, y / length) if corners > 1 else (1.0, 0.0)
         least = 1e300
+        at_x = self.ring[0, 0]
+        at_y = self.ring[0, 1]
         for i in range(count):
-            gap = _distance(self.ring, self.edges, corners, self.positions[i, 0], self.positions[i, 1])
+            x = self.positions[i, 0]
+            y = self.positions[i, 1]
+            if corners == 1:  # a point: as below, in a third of the time
+                gap = math.sqrt((x - at_x) * (x - at_x) + (y - at_y) * (y - at_y))
+            else:
+                gap = _distance(self.ring, self.edges, corners, x, y)
             self.gaps[i] = gap
             if gap - 0.5 * self.widths[i] < least:
                 least = gap - 0.5 * self.widths[i]

@@ -81,3 +81,9 @@ def test_constraints_that_have_no_room_carry_nothing():
         loads[world] += force[world, rows[rows >= 0]].sum()
     assert (rows < 0).any()
     assert many.numpy()[1][:, 2] == pytest.approx(loads, rel=1e-5)
+
+
+def test_a_patch_that_wraps_is_refused():
+    feel = Skin(body="foot", outward=(0, 0, -1)).bind(mujoco.MjModel.from_xml_string(models.box()))
+    with pytest.raises(InputError, match="patch that wraps"):
+        WarpSkin(feel, 2)
