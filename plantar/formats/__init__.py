@@ -15,6 +15,7 @@ from plantar.errors import FormatError, InputError, PlantarError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import checked
 from plantar.formats.units import find_unit
+from plantar.formats.without_loads import refuse_without_loads
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import PressureRecording
 
@@ -79,6 +80,7 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
             if not more:
                 break
             head += more
+            refuse_without_loads(path, head)
             maker = next((m for m in _UNDESCRIBED if m.lower().encode() in head.lower()), None)
             for candidate in known.values():
                 if candidate.recognises(head) and not (maker and candidate.name == "csv"):
@@ -130,7 +132,7 @@ def read_recording(
         found = checked(chosen.read(Path(path), known))
         if known.plates and found.kind != "plate":
             raise InputError(f"--plates is for force plates; {path} is a recording of kind {found.kind}")
-        if known.columns is not None and chosen.name != "csv":
+        if known.columns is not None and found.format != "csv":
             raise InputError(f"--columns is for tables; {path} is a {chosen.name} file, whose columns are known")
         return found
     except FormatError as error:

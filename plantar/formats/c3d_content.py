@@ -24,14 +24,20 @@ _EVENT = re.compile(
 )
 
 
+# Of a model of the body, which Vicon stores among the points: angles in degrees and forces in N are no places.
+_MODELLED = re.compile(r"angles?|forces?|moments?|powers?|grf|scalars?")
+_NO_GROUPS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
+
+
 def foot_of_marker(label: str) -> Side | None:
-    """Foot of a marker by its label, or None.
+    """Foot of a marker by its label, or None; also for a model's output, such as LAnkleAngles.
 
     Example:
-        >>> [foot_of_marker(m) for m in ("LTOE", "S01:RHEE", "R_FCC", "Heel.L", "RFT1", "LSHO", "RKNE", "LeftAnkle")]
-        ['left', 'right', 'right', 'left', 'right', None, None, 'left']
+        >>> [foot_of_marker(m) for m in ("LTOE", "S01:RHEE", "R_FCC", "Heel.L", "RFT1", "LSHO", "RKNE", "LAnkleForce")]
+        ['left', 'right', 'right', 'left', 'right', None, None, None]
     """
-    match = _MARKER.match(label.rpartition(":")[2].strip().lower())
+    name = label.rpartition(":")[2].strip().lower()
+    match = None if _MODELLED.search(name) else _MARKER.match(name)
     return None if match is None else side_of(match["side"] or match["end"])
 
 
@@ -68,8 +74,10 @@ def content_of_file(path: Path) -> dict[str, Any]:
     out["point_unit"] = np.array(_values(parameters, "POINT", "UNITS")[:1] or ["mm"])
     points = np.asarray(content["data"]["points"], dtype=float)[:3]
     labels = [str(x) for x in _values(parameters, "POINT", "LABELS")]
+    modelled = {str(x) for group in _NO_GROUPS for x in _values(parameters, "POINT", group)}
     for side in SIDES:
-        own = [i for i, label in enumerate(labels[: points.shape[1]]) if foot_of_marker(label) == side]
+        places = [i for i, label in enumerate(labels[: points.shape[1]]) if label not in modelled]
+        own = [i for i in places if foot_of_marker(labels[i]) == side]
         if own and points.shape[2] and analogs.shape[1]:
             known = np.where(np.isfinite(points[:, own]) & (points[:, own] != 0.0), points[:, own], np.nan)
             count = np.isfinite(known).sum(axis=1)

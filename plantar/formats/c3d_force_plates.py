@@ -30,6 +30,7 @@ _TILT = 0.97  # Least cosine of the angle between a plate's normal and the labor
 _LONGEST_PLATE = 2.0  # Largest distance in m of a CoP from where a plate's moments are about
 _KILONEWTONS = (0.15, 5.0)  # Largest forces of a person in kN
 _LARGEST_TURN = 0.1  # Largest free moment in N m for each N of vertical force
+_INTEL, _DEC, _MIPS = 84, 85, 86  # Processors by the byte that names them
 # The laboratory's axes in the order that makes its vertical one the third, right-handed.
 _TO_Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
 
@@ -37,8 +38,12 @@ _TO_Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
 def _recognises(head: bytes) -> bool:
     if len(head) < 1024 or head[1] != 0x50 or not 2 <= head[0] <= 100:
         return False
-    processor = (head[0] - 1) * 512 + 3  # in the head of the parameters: Intel, DEC or SGI
-    return processor < len(head) and head[processor] in (84, 85, 86)
+    return _processor(head) in (_INTEL, _DEC, _MIPS)
+
+
+def _processor(head: bytes) -> int:
+    place = (head[0] - 1) * 512 + 3  # in the head of the parameters
+    return head[place] if place < len(head) else 0
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
@@ -49,16 +54,20 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         head = stream.read(_HEAD)
     if len(head) < 512 or head[1] != 0x50:
         raise FormatError("not a C3D file that can be read (no C3D header)")
+    if _processor(head) == _MIPS:
+        raise FormatError("written for an SGI (MIPS) processor; allowed: the same file saved for Intel or DEC")
     held = read_apart("c3d", path, FormatError)
     rate = options.rate_hz or float(held["rate"])
     count = int(held["plates"])
     if count == 0:
         raise FormatError("the C3D file holds no force plate (group FORCE_PLATFORM)")
+    if not held["frames"]:
+        raise FormatError("the C3D file names force plates, and its analog channels hold no samples")
     possible_rate(rate, "its analog channels state")
     warnings = _cut_short(head, held)
     length = LENGTHS.get(plain(str(held["point_unit"][0])), 1e-3)
     up = _vertical_axis([held[f"corners_{i}"] for i in range(count)], warnings)
-    plates = [_plate(held, i, up, length, warnings) for i in range(count)]
+    plates = [_plate(held, i, up, length, options.unit, warnings) for i in range(count)]
     markers = {s: length * held[f"track_{s}"][:, _TO_Z_UP[up]][:, :2] for s in SIDES if f"track_{s}" in held}
     events = _stated_events(held)
     feet, every = feet_of_plates(plates, rate, options, warnings, markers, events)
@@ -87,9 +96,7 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
     (samples,) = struct.unpack_from("<H", head, 18)
     read = int(held["frames"])
     stated = (last - first + 1) * samples
-    processor = (head[0] - 1) * 512 + 3
-    other_order = processor >= len(head) or head[processor] == 86  # SGI: bytes the other way round
-    if other_order or last == 65535 or last < first or not read < stated:  # long ones state their frames elsewhere
+    if last == 65535 or last < first or not read < stated:  # long ones state their frames elsewhere
         return []
     return [f"the file is cut short: {read} of {stated} frames are there"]
 
@@ -124,22 +131,28 @@ def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> i
     return axis
 
 
-def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float, warnings: list[str]) -> Plate:
+def _plate(
+    held: Mapping[str, NDArray[Any]], number: int, up: int, length: float, unit: str | None, warnings: list[str]
+) -> Plate:
     kind = int(held[f"type_{number}"])
     channels = held[f"channels_{number}"]
     name = f"plate {number + 1}"
-    if not 1 <= kind <= 5 or not len(channels):
-        raise FormatError(f"{name} is of type {kind} or lacks channels; allowed: types 1 to 5 with all their channels")
+    if not 1 <= kind <= 5:
+        raise FormatError(f"{name} is of type {kind}; allowed: types 1 to 5")
+    if not len(channels):
+        raise FormatError(f"{name} names channels that the file does not hold; allowed: all channels of its type")
     matrix = held[f"matrix_{number}"]
     if kind in (4, 5) and matrix.shape != (6, len(channels)):
         raise FormatError(f"{name} of type {kind} states no calibration matrix of 6 x {len(channels)}")
     units = [plain(str(u)) for u in held[f"units_{number}"]]
     in_volts = [u for u in units if u in ("v", "mv", "uv", "volt", "volts", "d.u.", "counts", "bits")]
-    if in_volts and kind < 4:
+    if in_volts and kind < 4 and unit is None:
         raise FormatError(
             f"the channels of {name} are in {in_volts[0]}, and no calibration matrix makes forces of them; allowed: "
-            "forces and moments in N and N mm, or a plate of type 4 or 5"
+            "forces and moments in N and N mm, a plate of type 4 or 5, or --unit N where they are in N all the same"
         )
+    if unit is not None:
+        units = [plain(unit), *units[1:]] if kind == 3 else [plain(unit)] * 3 + [""] * 3
     values = possible(channels)
     newton, newton_metre = _scales(units, kind, length, name, values, warnings)
     origin = np.array(held[f"origin_{number}"], dtype=float)

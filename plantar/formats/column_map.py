@@ -17,6 +17,9 @@ _ALLOWED = (
     "name or number; the cells of a foot as left=A + B, or left=A..B for all from A to B"
 )
 _PLATE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")  # The channels of a force plate, in the order of all makers
+_HEAVY = 100.0  # What a plate's largest force reaches at least, in N: accelerations and turning rates reach less
+_STEPPED = 150.0  # What a plate's force reaches at least, in N, where nothing but its size shows that it is one
+_MOST_FILLED = 300  # Nameless columns, of which more may as well be the frames of a curve
 _FEWEST = 3  # Numbered columns up to which they may be the axes of a marker
 _SIGNED = 0.05  # Share of its largest value that a column reaches below zero, as only a plate's channels do
 
@@ -103,8 +106,10 @@ def _shown(i: int, names: Sequence[str]) -> str:
 def proposed_map(names: Sequence[str], table: NDArray[np.float64]) -> str:
     """Returns the map of a table (n, k) that names do not tell, filled in as far as they and the numbers go.
 
-    Six columns with negative values are a plate's channels; others one or two feet's cells.
+    Six columns with negative values are a plate's channels; one that reaches 150 is its vertical force; others are one
+    or two feet's cells. Columns that may be anything are not filled in.
     """
+    unknown = "left=COLUMN, right=COLUMN" if names else "left=FIRST..LAST, right=FIRST..LAST"
     steps = np.diff(table, axis=0)
     rising = [i for i in range(table.shape[1]) if len(steps) and (steps[:, i] > 0.0).all()]
     counters = [i for i in rising if (steps[:, i] == 1.0).all()]
@@ -114,19 +119,31 @@ def proposed_map(names: Sequence[str], table: NDArray[np.float64]) -> str:
     parts = [f"time={_shown(timed[0], names)}"] if timed else []
     rest = _possible_loads(names, table, rest) if names else rest
     if not rest:
-        return f'--columns "{", ".join([*parts, "left=COLUMN", "right=COLUMN"])}"'
+        return f'--columns "{", ".join([*parts, unknown])}"'
     lows = np.nanmin(table[:, rest], axis=0, initial=0.0)
     highs = np.nanmax(np.abs(table[:, rest]), axis=0, initial=1e-9)
-    if len(rest) % len(_PLATE) == 0 and (lows < -_SIGNED * highs).any():
+    signed = bool((lows < -_SIGNED * highs).any())
+    if len(rest) % len(_PLATE) == 0 and signed and max(highs) >= _HEAVY:
         count = len(rest) // len(_PLATE)
         channels = [f"{c}{plate + 1 if count > 1 else ''}" for plate in range(count) for c in _PLATE]
         parts += [f"{channel}={_shown(i, names)}" for channel, i in zip(channels, rest, strict=True)]
+    elif not names and (len(rest) > _MOST_FILLED or (signed and len(rest) > 2) or _has_constant(table[:, rest])):
+        parts.append(unknown)
+    elif not names and len(rest) == 1 and highs[0] >= _STEPPED:
+        parts.append(f"Fz={_shown(rest[0], names)}")
     elif len(rest) > 1 and len(rest) % 2 == 0:
         half = len(rest) // 2
         parts += [f"left={_span(rest[:half], names)}", f"right={_span(rest[half:], names)}"]
     else:
         parts.append(f"left={_span(rest, names)}")
     return f'--columns "{", ".join(parts)}"'
+
+
+def _has_constant(values: NDArray[np.float64]) -> bool:
+    """Whether a column is one number other than 0, as a serial number or a setting is."""
+    lowest = np.nanmin(values, axis=0, initial=np.inf)
+    highest = np.nanmax(values, axis=0, initial=-np.inf)
+    return bool(((lowest == highest) & (lowest != 0.0)).any())
 
 
 def _possible_loads(names: Sequence[str], table: NDArray[np.float64], columns: Sequence[int]) -> list[int]:

@@ -5,7 +5,7 @@ what `ReadOptions.columns` states; one without either is nothing.
 """
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, islice
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from plantar.formats.side import is_side_column, names_a_foot, number_of_side, s
 from plantar.formats.table_columns import recording_of_columns
 from plantar.formats.table_text import (
     CountedSeconds,
+    TableHead,
     has_quoted_commas,
     head_of_table,
     seconds_of_time,
@@ -31,7 +32,8 @@ from plantar.recordings.pressure_recording import PressureRecording
 _MOST_COLUMNS = 100_000
 _HEAD = 200
 _POINT = re.compile(r"(?<!\d)0\.|\.(?!\d{3}(?!\d))|\d{4}\.|\.\d+[eE]")  # that is no mark between thousands
-_FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
+_FEWEST = 3  # Numbers of a row from which lines are a table by themselves; fewer need names, or so many rows
+_ROWS = 20
 
 
 def _number_or_nan(cell: str) -> str:
@@ -41,7 +43,7 @@ def _number_or_nan(cell: str) -> str:
 def _recognises(head: bytes) -> bool:
     lines = [x for x in head_text(head).splitlines() if x.strip()]
     found = head_of_table(lines[:-1] if len(lines) > 3 else lines)
-    if found is None or not (found.width >= _FEWEST or found.names):
+    if found is None or not (found.width >= _FEWEST or found.names or len(lines) - found.first >= _ROWS):
         return False
     above = sum(not x.startswith("#") for x in lines[: found.first])
     if above > 1:  # below other text a table needs names of loads: numbers alone may be of any maker's format
@@ -57,40 +59,64 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = list(islice((x.rstrip("\n") for x in stream if x.strip()), _HEAD))
-        head = head_of_table(lines)
-        if head is None:
-            raise FormatError("the table has no rows of numbers")
+        head = _checked_head(lines)
+        stated = mapped_columns(column_map(options.columns), head.names, head.width)
+        names = [stated.get(i, "") for i in range(head.width)] if stated else list(head.names)
         first = lines[head.first :]
-        names = list(head.names)
-        delimiter = head.delimiter
-        more = (x.rstrip("\n") for x in stream if x.strip() and not x.startswith("#"))
-        rows: Iterator[str] = chain((x for x in first if not x.startswith("#")), more)
-        if delimiter == "," and any(map(has_quoted_commas, first)):
-            rows = without_quotes(rows)
-        if delimiter != "," and any("," in x for x in first) and not any(map(_POINT.search, first)):
-            rows = (x.replace(".", "") for x in rows)
-        if delimiter == "," and not names and head.first and 2 * lines[head.first - 1].count(",") + 2 == head.width:
-            raise FormatError(
-                "rows have twice as many cells as names: a comma cannot be decimal sign and delimiter, too"
-            )
-        stated = mapped_columns(column_map(options.columns), names, head.width)
-        names = [stated.get(i, "") for i in range(head.width)] if stated else names
-        cells = [line.split(delimiter) for line in first]
-        clock = _clock(names, cells, list(stated) or list(range(len(names) or 1)))
-        changes: dict[int, Callable[[str], str]] = dict.fromkeys(head.labels, _number_or_nan)
-        if clock is not None:
-            changes[clock] = CountedSeconds()
-            names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
-        for i, name in enumerate(names):
-            own = [row[i] for row in cells if i < len(row)]
-            if is_side_column(name) or (own and all(map(names_a_foot, own))):
-                changes[i] = number_of_side
-        rows = with_columns(rows, delimiter, changes) if changes else rows
-        if head.width > _MOST_COLUMNS:
-            raise FormatError(f"a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
-        table = table_of_lines(path, rows, delimiter, head.width, warnings, sorted(stated))
+        changes = _changed_columns(names, first, head, list(stated))
+        rows = (x for x in chain(first, (x.rstrip("\n") for x in stream if x.strip())) if not x.startswith("#"))
+        rows = _plain_numbers(rows, first, head.delimiter)
+        if changes:
+            rows = with_columns(rows, head.delimiter, changes)
+        table = table_of_lines(path, rows, head.delimiter, head.width, warnings, sorted(stated))
     names = [names[i] for i in sorted(stated)] if stated else names
     return recording_of_columns(table, names, options, path, dict(head.facts), warnings)
+
+
+def _checked_head(lines: list[str]) -> TableHead:
+    """Head of a table; FormatError without rows, with too many columns, or with commas of two meanings."""
+    head = head_of_table(lines)
+    if head is None:
+        raise FormatError("the table has no rows of numbers")
+    if head.width > _MOST_COLUMNS:
+        raise FormatError(f"a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
+    above = lines[head.first - 1] if head.first else ""
+    if head.delimiter == "," and not head.names and above and 2 * above.count(",") + 2 == head.width:
+        raise FormatError("rows have twice as many cells as names: a comma cannot be decimal sign and delimiter, too")
+    if (head.delimiter, head.width, list(head.names)) == (",", 2, []) and not any(
+        "." in x for x in lines[head.first :]
+    ):
+        raise FormatError(
+            "two whole numbers a row are two columns, or one with a decimal comma; allowed: a row of names, or "
+            "decimal points"
+        )
+    return head
+
+
+def _plain_numbers(rows: Iterator[str], first: Sequence[str], delimiter: str | None) -> Iterator[str]:
+    """Rows without quotes about decimal commas, and without points between thousands, where the first ones show it."""
+    if delimiter == "," and any(map(has_quoted_commas, first)):
+        return without_quotes(rows)
+    if delimiter != "," and any("," in x for x in first) and not any(map(_POINT.search, first)):
+        return (x.replace(".", "") for x in rows)
+    return rows
+
+
+def _changed_columns(
+    names: list[str], first: Sequence[str], head: TableHead, tried: list[int]
+) -> dict[int, Callable[[str], str]]:
+    """Columns whose cells are no plain numbers: labels, times of day, and feet by name; a clock's name becomes one."""
+    cells = [line.split(head.delimiter) for line in first]
+    changes: dict[int, Callable[[str], str]] = dict.fromkeys(head.labels, _number_or_nan)
+    clock = _clock(names, cells, tried or list(range(len(names) or 1)))
+    if clock is not None:
+        changes[clock] = CountedSeconds()
+        names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
+    for i, name in enumerate(names):
+        own = [row[i] for row in cells if i < len(row)]
+        if is_side_column(name) or (own and all(map(names_a_foot, own))):
+            changes[i] = number_of_side
+    return changes
 
 
 def _clock(names: list[str], rows: list[list[str]], tried: list[int]) -> int | None:

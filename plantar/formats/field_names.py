@@ -24,7 +24,8 @@ BODY_WEIGHTS: dict[str, float] = {
 
 # Where each is seen: OpenSim .mot (ground_force_vx), Cortex .forces (FX1), D-Flow (FP1.ForX), Vicon Nexus (Fx, Force
 # Plate #1), BioWare (Ax), BTK (F1X), Visual3D (COFP), AMTI (FX), novel (links, Kraft), loadsol (Force[N]),
-# Noraxon (LT), Moticon (total force), Arduino sketches (FSR1, A0, millis), theses in ten languages.
+# Noraxon (LT), Moticon (total force), OrthoTrak (R_GRF_VRT, R_GRF_FWD), Arduino sketches (FSR1, A0, millis), theses
+# in ten languages.
 _WORDS_OF_KIND = {
     "left": "l lt li left links linker linke linkes gauche izquierdo izquierda izq sinistro sinistra "
     "esquerdo esquerda 左",
@@ -34,9 +35,9 @@ _WORDS_OF_KIND = {
     "pressure": "pressure druck press pression presion presión kpa 圧力",
     "cop": "cop copp cofp pressurecenter copposition",
     "moment": "freemoment m mom moment moments torque t tz free drehmoment",
-    "vertical": "vertical vert v normal vertikal vertikale senkrecht verticale verticaal 垂直",
-    "ap": "ap anteroposterior anterior posterior",
-    "ml": "ml mediolateral lateral medial",
+    "vertical": "vertical vert vrt v normal vertikal vertikale senkrecht verticale verticaal 垂直",
+    "ap": "ap anteroposterior anterior posterior fwd forward",
+    "ml": "ml mediolateral lateral lat medial",
     "plate": "fp plate forceplate platform plattform belt treadmill tm ground amti kistler bertec",
     "plain": "net foot feet fuss fuß pied pie piede voet pé 足 leg limb side of the in insole insoles sole shoe "
     "component comp value data signal noraxon ultium loadsol",

@@ -19,13 +19,14 @@ from plantar.formats.text import head_text, open_text, table_of_lines
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 
 _SENSOR = re.compile(r"(?P<name>[^\t:]+-(?P<side>[LR]))(?:::(?P<zone>\w+))?")
+_NAMES = re.compile(r"-[LR]::\w+[^\n]*\n\s*Time\[secs\]([\t,;])Force\[N\]")  # above units, between tabs or commas
 _HEAD = 20  # Lines that may stand above the names
 _LOST = -1.0  # N, in all zones of a frame that did not arrive
 _APART = 0.02  # Share of the total by which its zones' sum may differ: they are rounded
 
 
 def _recognises(head: bytes) -> bool:
-    return re.search(r"[^\t:\n]-[LR]::\w+[^\n]*\n\s*Time\[secs\]\tForce\[N\]", head_text(head)) is not None
+    return _NAMES.search(head_text(head)) is not None
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
@@ -34,15 +35,16 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         above = ""
         for line in islice(stream, _HEAD):
             if line.startswith("Time[secs]"):
-                sensors = above.rstrip("\n").split("\t")
-                units = line.rstrip("\n").split("\t")
+                delimiter = line.removeprefix("Time[secs]")[:1]
+                sensors = above.rstrip("\n").split(delimiter)
+                units = line.rstrip("\n").split(delimiter)
                 break
             above = line
         else:
             raise FormatError("no line of names and units: Time[secs], Force[N]")
         rows = (row.rstrip("\n") for row in stream if row.strip())
         width = len([unit for unit in units if unit.strip()])
-        table = table_of_lines(path, rows, "\t", width, warnings)
+        table = table_of_lines(path, rows, delimiter, width, warnings)
     columns = _columns(sensors, units[:width])
     feet = {
         side: (table[:, clock], table[:, [*zones.values(), total]]) for side, (clock, zones, total) in columns.items()
@@ -107,7 +109,7 @@ def _check_total(side: Side, zones: list[str], values: NDArray[np.float64], warn
 FORMAT = Format(
     name="loadsol",
     title="loadsol export with zones",
-    suffixes=(".txt",),
+    suffixes=(".txt", ".csv"),
     recognises=_recognises,
     read=_read,
     order=18,

@@ -156,7 +156,8 @@ def _found(
     if treadmill and across:
         return across, "the belts' places across the direction of walking"
     found = _by_push(plates, contacts, forward)
-    if across and not all(found):
+    agree = all(push in (None, place) for push, place in zip(found, across, strict=False))
+    if across and agree and not all(found) and not _walks_on_one_foot(contacts, across):
         return across, "their places across the direction of walking"
     return found, "their push to the body's middle"
 

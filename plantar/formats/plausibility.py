@@ -36,6 +36,7 @@ _ZEROS = 0.05
 MOST = 1e12
 """Largest value of any sensor, in N or counts: above are damaged numbers."""
 _SHORTEST_FOOT = 0.05
+_LIGHTEST = 10.0  # Largest force in N, of all feet, below which nobody stands: a newborn weighs 25 N
 _LONGEST_FOOT = 0.40
 _OPTION = re.compile(r"\(--\w+")  # that states what was assumed
 # Share of its peak that a loaded foot has at least, and what is left where its samples are lost; time in s in which no
@@ -81,9 +82,15 @@ def possible(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def refuse_small(recording: PressureRecording) -> None:
-    """FormatError for a sensor that no foot fits on, such as a finger's."""
+    """FormatError for a sensor that no foot fits on, such as a finger's, or loads that are nobody's."""
     if recording.kind not in ("insole", "platform"):
         return
+    largest = max((float(np.nanmax(f.vertical_force, initial=0.0)) for f in recording.feet.values()), default=0.0)
+    if 0.0 < largest < _LIGHTEST and not recording.raw:
+        raise FormatError(
+            f"the feet carry no more than {largest:.2g} N, which is nobody's load; allowed: {_LIGHTEST:g} N or more "
+            "(check the unit; --unit overrides)"
+        )
     for side, foot in recording.feet.items():
         extent = np.inf if foot.layout is None else float(np.ptp(foot.layout.outline, axis=0).max())
         if extent < _SHORTEST_FOOT:

@@ -278,6 +278,17 @@ def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[i
     )
 
 
+def _refuse_two_loads(names: Sequence[str], headings: Sequence[Heading], columns: Sequence[int]) -> None:
+    """FormatError where a column is called a load, and another one no more than a foot: either may be the load."""
+    feet = [i for i in columns if (h := headings[i]).side and (h.quantity, h.number, h.unit) == ("number", None, "")]
+    loads = [i for i in columns if (h := headings[i]).quantity in ("force", "pressure") and not h.side]
+    if len(feet) == 1 and len(loads) == 1 and headings[loads[0]].number is None:
+        raise FormatError(
+            f"{names[loads[0]]!r} and {names[feet[0]]!r} may both be the foot's load; allowed: which is, such as "
+            f'--columns "{headings[feet[0]].side}={names[loads[0]]}"'
+        )
+
+
 def _cells(
     table: NDArray[np.float64],
     names: list[str],
@@ -288,6 +299,7 @@ def _cells(
     options: ReadOptions,
     warnings: list[str],
 ) -> tuple[dict[Side, FootRecording], bool]:
+    _refuse_two_loads(names, headings, columns)
     chosen = _chosen_cells(headings, columns)
     _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")
     if not chosen:

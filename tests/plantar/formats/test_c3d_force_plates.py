@@ -9,7 +9,7 @@ import pytest
 
 from plantar import FormatError, InputError
 from plantar.formats import detect_format, read_recording
-from plantar.formats.c3d_content import event_of
+from plantar.formats.c3d_content import content_of_file, event_of
 from plantar.formats.force_plates import on_its_surface
 from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import Plate
@@ -118,6 +118,44 @@ def test_markers_show_that_both_contacts_are_of_one_foot(tmp_path):
     assert sorted(given.feet) == ["left", "right"]
     with pytest.raises(InputError, match="names 1 plates; the file has 2"):
         analyse(path, options=ReadOptions(plates=("left",)))
+
+
+def test_a_models_output_among_the_points_is_no_marker(tmp_path):
+    def with_angles(file: Any) -> None:  # 4 m away from the foot, as degrees and N are
+        labels = file["parameters"]["POINT"]["LABELS"]["value"]
+        far = np.full((4, 6, file["data"]["points"].shape[2]), 4000.0)
+        names = ["LAnkleAngles", "RAnkleAngles", "LANK_ANG", "S1:RAnkleForce", "RTOE_MOM", "LTOE_MOM"]
+        file["parameters"]["POINT"]["LABELS"]["value"] = [*labels, *names]
+        file.add_parameter("POINT", "ANGLES", [names[2]])
+        file.add_parameter("POINT", "MOMENTS", names[4:])
+        file["data"]["points"] = np.concatenate([file["data"]["points"], far], axis=1)
+        file["data"]["meta_points"]["residuals"] = np.zeros((1, len(labels) + 6, far.shape[2]))
+        del file["data"]["meta_points"]["camera_masks"]
+
+    write(tmp_path / "plain.c3d", WALK, "markers")
+    write(tmp_path / "walk.c3d", WALK, "markers", change=with_angles)
+    plain, found = (content_of_file(tmp_path / name) for name in ("plain.c3d", "walk.c3d"))
+    for side in ("left", "right"):
+        np.testing.assert_allclose(found[f"track_{side}"], plain[f"track_{side}"], atol=0.01)
+
+
+def test_the_unit_can_be_stated_where_the_file_states_volts(tmp_path):
+    write(tmp_path / "plain.c3d")
+    write(tmp_path / "walk.c3d", change=in_volts)
+    plain = steps_of(analyse(tmp_path / "plain.c3d"))
+    found = steps_of(analyse(tmp_path / "walk.c3d", options=ReadOptions(unit="N")))
+    assert [s["peak_force_N"] for s in found] == pytest.approx([s["peak_force_N"] for s in plain], rel=1e-6)
+    assert [s.side for s in found] == [s.side for s in plain]
+
+
+def test_a_file_of_another_processor_is_refused(tmp_path):
+    path = tmp_path / "walk.c3d"
+    write(path)
+    content = bytearray(path.read_bytes())
+    content[(content[0] - 1) * 512 + 3] = 86
+    path.write_bytes(content)
+    with pytest.raises(FormatError, match=r"SGI \(MIPS\) processor; allowed"):
+        read_recording(path)
 
 
 def test_a_foot_that_may_be_partly_beside_its_plate_is_told(tmp_path):

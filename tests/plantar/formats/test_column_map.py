@@ -96,3 +96,40 @@ def test_a_map_is_for_tables(tmp_path):
     np.save(tmp_path / "walk.npy", np.ones((50, 4)))
     with pytest.raises(InputError, match="--columns is for tables"):
         analyse(tmp_path / "walk.npy", columns="left=1")
+
+
+def test_the_printed_map_of_a_force_without_a_name_mends_it(tmp_path):
+    path = tmp_path / "plate.csv"
+    path.write_text(rows([TIME, RIGHT], ","))
+    columns = printed(path)
+    assert columns == "time=1, Fz=2"
+    check(analyse(path, options=ReadOptions(columns=columns, side="right")), ["right"])
+    path.write_text("".join(f"{force:.2f}\n" for force in RIGHT))
+    columns = printed(path)
+    assert columns == "Fz=1"
+    check(analyse(path, options=ReadOptions(columns=columns, side="right", rate_hz=100.0)), ["right"])
+
+
+def test_nameless_columns_that_may_be_anything_are_not_filled_in(tmp_path):
+    path = tmp_path / "table.csv"
+    turns = np.sin(TIME[:, None] + np.arange(8.0))
+    serial = np.full(len(TIME), 40213.0)
+    curves = [LEFT + 0.01 * i for i in range(320)]
+    for columns in (turns.T, [serial, LEFT, RIGHT], curves):
+        path.write_text(rows(list(columns), ","))
+        assert printed(path) == "left=FIRST..LAST, right=FIRST..LAST"
+
+
+def test_whole_numbers_between_commas_may_be_one_column(tmp_path):
+    path = tmp_path / "table.csv"
+    path.write_text("".join(f"{round(force)},{i % 10}\n" for i, force in enumerate(RIGHT)))
+    with pytest.raises(FormatError, match="one with a decimal comma; allowed"):
+        analyse(path)
+
+
+def test_a_named_load_beside_one_foots_name_is_asked_for(tmp_path):
+    path = tmp_path / "table.csv"
+    path.write_text("time,force,corrected,right\n" + rows([TIME, RIGHT, 0.0 * RIGHT, 0.5 * RIGHT], ","))
+    columns = printed(path)
+    assert columns == "right=force"
+    check(analyse(path, columns="time=time, right=force"), ["right"])

@@ -36,6 +36,14 @@ def test_zones_are_cells_and_their_total_is_the_force(tmp_path, zones):
     assert walk.recording.metadata["zones"]["right"] == list(zones)
 
 
+def test_an_export_between_commas_is_the_same(tmp_path):
+    export(tmp_path / "walk.txt")
+    text = (tmp_path / "walk.txt").read_text().replace("\t", ",")
+    (tmp_path / "walk.csv").write_text(text)
+    assert detect_format(tmp_path / "walk.csv").name == "loadsol"
+    check(analyse(tmp_path / "walk.csv"))
+
+
 def test_frames_that_did_not_arrive_were_not_measured(tmp_path):
     path = tmp_path / "walk.txt"
     export(path, lost=range(100, 800, 20))

@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from plantar import FormatError
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.formats.plausibility import doubts
+from plantar.formats.plausibility import doubts, refuse_small
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 
@@ -31,6 +32,15 @@ def with_force(recording: PressureRecording, force: np.ndarray) -> PressureRecor
 @pytest.mark.parametrize("rate", [25.0, 100.0, 500.0])
 def test_a_usual_recording_is_not_doubted(rate, resolution):
     assert doubts(steps(rate, resolution)) == []
+
+
+def test_loads_that_are_nobodys_are_refused():
+    recording = steps()
+    refuse_small(with_force(recording, 0.02 * recording.feet["left"].force))
+    light = with_force(recording, 0.01 * recording.feet["left"].force)
+    refuse_small(replace(light, raw=True))
+    with pytest.raises(FormatError, match="no more than 8 N, which is nobody's load; allowed: 10 N or more"):
+        refuse_small(light)
 
 
 def test_cells_at_the_end_of_their_range_are_told():

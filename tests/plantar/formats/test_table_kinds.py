@@ -66,6 +66,18 @@ def check(walk: Analysis, sides: Sequence[str] = ("left", "right"), weight: floa
         assert walk.metrics["gait"]["cadence_steps_per_min"] == pytest.approx(120.0 / PERIOD, rel=0.003)
 
 
+def test_the_reactions_of_orthotrak_stand_among_joint_forces_and_muscles(tmp_path):
+    names = []
+    columns = []
+    for side, force in (("R", RIGHT), ("L", LEFT)):
+        names += [f"{side}_KNEE Flex FRC", f"{side}_GRF_FWD", f"{side}_GRF_LAT", f"{side}_GRF_VRT", f"{side} GRF"]
+        columns += [0.7 * force, AHEAD["right"], 0.05 * force, force, 40.0 + 300.0 * np.abs(np.sin(7.0 * TIME))]
+    head = "Version\t3.0\nStarting Frame\t12\nR_Velocity\t131.5\nRHS\t35.0\t145.0\n"
+    path = tmp_path / "report.xls"
+    path.write_text(head + "\t".join(names) + "\n" + rows(columns))
+    check(analyse(path, rate_hz=100.0))
+
+
 @pytest.mark.parametrize("names", HEADINGS)
 def test_headings_of_two_feet(tmp_path, names):
     path = tmp_path / "walk.csv"

@@ -1,0 +1,42 @@
+"""The foot of each contact where names, markers and events do not show it."""
+
+import numpy as np
+import pytest
+
+from plantar.formats.plate_sides import Plate, PlateContact, sides_of_contacts
+
+RATE = 100.0
+LENGTH = 60  # frames of a contact
+
+
+def walk(across: list[float], pushes: list[float]) -> tuple[list[Plate], list[PlateContact]]:
+    """Plates in the way of x, stepped on one after another at places `across` it in m, pushed leftward by shares."""
+    plates = []
+    contacts = []
+    gone = np.linspace(0.0, 1.0, LENGTH)
+    for i, (y, push) in enumerate(zip(across, pushes, strict=True)):
+        begin = 50 * i
+        force = np.zeros((50 * len(across) + LENGTH, 3))
+        load = 800.0 * np.sin(np.pi * gone) ** 0.5
+        force[begin : begin + LENGTH] = np.column_stack([0.2 * load * (2.0 * gone - 1.0), push * load, load])
+        cop = np.full((len(force), 2), np.nan)
+        cop[begin : begin + LENGTH] = np.column_stack([0.65 * i + 0.2 * gone, np.full(LENGTH, y)])
+        plates.append(Plate(f"plate {i + 1}", force, cop=cop))
+        contacts.append(PlateContact(i, begin, begin + LENGTH))
+    return plates, contacts
+
+
+@pytest.mark.parametrize(
+    ("across", "pushes", "why"),
+    [
+        ([-0.05, 0.05, -0.05, 0.05], [0.05, -0.05, 0.05, 0.0], "places across"),  # one push is not clear
+        ([0.10, 0.25, 0.14, 0.17], [0.05, -0.05, 0.05, -0.002], "push to the body's middle"),  # two steps of one foot
+        ([0.05, 0.20, 0.14, 0.10], [0.05, -0.05, 0.05, -0.002], "push to the body's middle"),  # places say otherwise
+    ],
+)
+def test_clear_pushes_decide_over_places_that_contradict_them(across, pushes, why):
+    plates, contacts = walk(across, pushes)
+    warnings: list[str] = []
+    found = sides_of_contacts(plates, contacts, False, RATE, None, warnings)
+    assert found == ["right", "left", "right", "left"]
+    assert why in warnings[0]
