@@ -14,6 +14,8 @@ from plantar.common.files.input_file import check_input, is_file, open_input
 from plantar.errors import FormatError, InputError, PlantarError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import checked
+from plantar.formats.table_text import head_of_table
+from plantar.formats.text import head_text
 from plantar.formats.units import find_unit
 from plantar.formats.without_loads import refuse_without_loads
 from plantar.layouts.layout import SoleLayout
@@ -93,6 +95,11 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
     if head.startswith(_PACKED):
         sheet = "an Excel workbook (.xlsx); allowed: its sheet saved as CSV (a report of steps: --events)"
         raise FormatError(f"{path}: {sheet if b'xl/' in head else 'packed; allowed: what it holds, unpacked'}")
+    if head_of_table(head_text(head[: _HEADS[0]]).splitlines()[:-1]) is not None:
+        raise FormatError(
+            f"{path}: a table, below other text, whose columns no name shows as loads; allowed: a row of names such as "
+            "Left Fz [N], or --format csv, which prints the map of columns to fill in"
+        )
     raise FormatError(f"{path}: not a recording of a known format; known: {names}")
 
 

@@ -16,6 +16,8 @@ _BACKWARD = 0.05
 _FARTHER = 0.26
 _PUSHES = 0.02  # Mean change of the horizontal force in a contact, as a share of the vertical, that is a clear push
 _ROLL = 0.22  # Way in m that the CoP of a walking adult goes under the foot from heel to toes, within 0.04 m
+_WALK_S = 0.45  # Contact in s that is longer than one of a run
+_ALONE = 3  # Contacts that a belt alone carries, from which it is one
 _STEADY_S = 0.25  # Shortest contact in s that shows a belt
 
 
@@ -28,16 +30,16 @@ def are_belts(plates: Sequence[Plate], contacts: Sequence[PlateContact], rate: f
         rate: Frames a second.
         warnings: Added to.
     """
-    if len(plates) < 2:
-        return False
     speeds: dict[int, list[float]] = {}
     for contact in contacts:
         speed = _carried(plates[contact.plate], contact, rate)
         if speed is not None:
             speeds.setdefault(contact.plate, []).append(speed)
-    if len(speeds) >= 2:
+    usual = float(np.median([c.end - c.begin for c in contacts])) / rate if contacts else 0.0
+    # Of one belt alone, whose contacts are apart and as long as a walk's: two feet on it part in a run only.
+    alone = len(plates) == 1 and usual > _WALK_S and sum(map(len, speeds.values())) >= _ALONE
+    if len(speeds) >= 2 or alone:
         speed = float(np.median([v for own in speeds.values() for v in own]))
-        usual = float(np.median([c.end - c.begin for c in contacts])) / rate
         warnings.append(
             f"these are belts: they carry the centre of pressure backwards at {speed:.2g} m/s, so that they run at "
             f"about {speed + _ROLL / usual:.2g} m/s, if a foot rolls over {_ROLL:g} m; each belt is one foot's"

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.formats.field_names import heading_of
-from plantar.formats.side import is_side_column, side_of
+from plantar.formats.side import is_side_column, side_column, side_of
 from plantar.formats.table_text import time_unit
 
 _LOADS = ("force", "cop", "moment", "place", "pressure", "cell", "number")
@@ -115,8 +115,13 @@ def proposed_map(names: Sequence[str], table: NDArray[np.float64]) -> str:
     counters = [i for i in rising if (steps[:, i] == 1.0).all()]
     timed = [i for i, n in enumerate(names) if time_unit(n) is not None]
     timed = timed or [i for i in rising if i not in counters]
-    rest = [i for i in range(table.shape[1]) if i not in (*timed[:1], *counters)]
+    of_side = side_column([""] * table.shape[1], table)
+    sides = [] if of_side is None else [of_side]
+    rest = [i for i in range(table.shape[1]) if i not in (*timed[:1], *counters, *sides)]
     parts = [f"time={_shown(timed[0], names)}"] if timed else []
+    if sides and len(rest) == 1:
+        parts += [f"side={_shown(sides[0], names)}", f"force={_shown(rest[0], names)}"]
+        return f'--columns "{", ".join(parts)}"'
     rest = _possible_loads(names, table, rest) if names else rest
     if not rest:
         return f'--columns "{", ".join([*parts, unknown])}"'

@@ -64,7 +64,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         names = [stated.get(i, "") for i in range(head.width)] if stated else list(head.names)
         first = lines[head.first :]
         changes = _changed_columns(names, first, head, list(stated))
-        rows = (x for x in chain(first, (x.rstrip("\n") for x in stream if x.strip())) if not x.startswith("#"))
+        more = (x.rstrip("\n") for x in stream if x.strip())
+        rows: Iterator[str] = (x for x in chain(first, more) if not x.startswith("#"))
         rows = _plain_numbers(rows, first, head.delimiter)
         if changes:
             rows = with_columns(rows, head.delimiter, changes)
@@ -112,9 +113,9 @@ def _changed_columns(
     if clock is not None:
         changes[clock] = CountedSeconds()
         names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
-    for i, name in enumerate(names):
+    for i in range(head.width):
         own = [row[i] for row in cells if i < len(row)]
-        if is_side_column(name) or (own and all(map(names_a_foot, own))):
+        if (names and is_side_column(names[i])) or (own and all(map(names_a_foot, own))):
             changes[i] = number_of_side
     return changes
 

@@ -14,6 +14,7 @@ from plantar.formats.cells_of_foot import cells_of_foot, feet_in_turns, unit_of_
 from plantar.formats.column_map import proposed_map
 from plantar.formats.field_names import Heading, heading_of, spelled_out
 from plantar.formats.format import ReadOptions
+from plantar.formats.missing_cells import report_missing_cells
 from plantar.formats.plausibility import possible
 from plantar.formats.side import on_one_time, rows_of_sides, side_column, side_of
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
@@ -28,9 +29,9 @@ _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more t
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 _SLOWEST = 5.0  # Hz: rows that are farther apart are steps or minutes, and no frames
 _SIGNED = 0.3  # Share of the largest reading that cells do not reach on both sides of zero
-_COUNTED = 4  # Numbered cells of a foot from which a gap in their numbers is reported
-_LACKING = 0.34  # Share of them that may be lacking
 _FEWEST = 3  # Rows of a recording
+_PAIRS = 20  # Times that are there twice, from which rows are of two feet; and how much more they differ so
+_PARTED = 3.0
 
 
 def recording_of_columns(
@@ -70,6 +71,8 @@ def recording_of_columns(
     for i in range(table.shape[1]):
         if i != at and i not in clocks:
             table[:, i] = possible(table[:, i])
+    if at is not None and of_side is None:
+        _refuse_feet_in_turns(table, at)
     headings = [heading_of(name) for name in names]
     _refuse_curves(headings, at)
     if at is None and options.rate_hz is None and stated_rate(facts, []) is None:
@@ -179,6 +182,23 @@ def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
                 "each row is a curve of a trial, since columns name subjects or trials and the rest is numbered; "
                 "allowed: a row a frame, with a column of times or --rate"
             )
+
+
+def _refuse_feet_in_turns(table: NDArray[np.float64], at: int) -> None:
+    """FormatError where each time is there twice, with loads that differ more within a time than from time to time."""
+    time = table[:, at]
+    pairs = len(time) // 2
+    twice = pairs >= _PAIRS and (time[: 2 * pairs : 2] == time[1 : 2 * pairs : 2]).all()
+    if not twice or not (np.diff(time[: 2 * pairs : 2]) > 0.0).all():
+        return
+    values = np.nan_to_num(np.delete(table[: 2 * pairs], at, axis=1))
+    within = np.abs(values[1::2] - values[::2]).sum(axis=0)
+    between = np.abs(np.diff(values[::2], axis=0)).sum(axis=0)
+    if (within > _PARTED * between).any():
+        raise FormatError(
+            "each time is there twice, with different loads, as of two feet in turns, and no column names the foot; "
+            "allowed: a column of feet (side: left or right), or a row a time"
+        )
 
 
 def _refuse_steps(table: NDArray[np.float64], headings: Sequence[Heading]) -> None:
@@ -310,7 +330,7 @@ def _cells(
         )
     _refuse_signs(table[:, chosen])
     if options.layout is None:
-        _report_missing([headings[i] for i in chosen], warnings)
+        report_missing_cells(table, headings, chosen, columns, warnings)
     found = [headings[i].unit for i in chosen if headings[i].unit]
     if len({find_unit(u) for u in found}) > 1:
         raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
@@ -333,20 +353,6 @@ def _cells(
         ids = [n for i in by_side.get(side, nameless) if (n := headings[i].number) is not None]
         feet[side] = cells_of_foot(side, part, unit, options, warnings, ids if len(ids) == part.shape[1] else None)
     return feet, unit.kind == "raw"
-
-
-def _report_missing(cells: Sequence[Heading], warnings: list[str]) -> None:
-    """Add to `warnings` which numbers a foot's cells leave out: they may be in a column with another name."""
-    for side in dict.fromkeys(cell.side for cell in cells):
-        numbers = {cell.number for cell in cells if cell.side == side and cell.number is not None}
-        lacking = sorted(set(range(min(numbers, default=0), max(numbers, default=0))) - numbers)
-        if len(numbers) >= _COUNTED and 0 < len(lacking) <= _LACKING * len(numbers):
-            shown = ", ".join(map(str, lacking))
-            warnings.append(
-                f"{f'the {side} foot has' if side else 'there are'} cells {min(numbers)} to {max(numbers)} without "
-                f"{shown}: forces are about {100.0 * len(lacking) / (len(numbers) + len(lacking)):.0f} % too small, "
-                "if these are cells (--columns names them)"
-            )
 
 
 def _refuse_signs(values: NDArray[np.float64]) -> None:

@@ -71,8 +71,8 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
                 return TableHead([c.strip() for c in rows[0].split(delimiter)], delimiter, width, 1, {})
         names, above = _names(lines[:first], delimiter, width)
         return TableHead(names, delimiter, width, first, _facts(lines[:above], delimiter), labels)
-    alone = [line for line in lines if not line.startswith("#")]
-    if len(alone) >= _ROWS and all(number(line) is not None for line in alone):
+    data = [line for line in lines if not line.startswith("#")]
+    if len(data) >= _ROWS and all(number(line) is not None for line in data):
         return TableHead([], "\t", 1, 0, {})
     return None
 

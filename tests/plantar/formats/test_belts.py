@@ -69,6 +69,17 @@ def test_stated_plates_win_over_names(tmp_path):
     assert stated.feet["left"].steps[0].heel_strike_s == named
 
 
+@pytest.mark.parametrize("speed", [0.6, 1.2])
+def test_one_belt_alone_is_of_one_foot(tmp_path, speed):
+    path = tmp_path / "walk.mot"
+    begins = walk(path, ("r_",), speed, strides=3, order=(0,))
+    found = analyse(path, options=ReadOptions(side="right"))
+    assert any("these are belts" in w for w in found.warnings)
+    strikes = [s.heel_strike_s for s in found.feet["right"].steps]
+    assert len(strikes) == 3
+    assert all(np.abs(begins["right"] - strike).min() < 0.02 for strike in strikes)
+
+
 def test_plates_in_a_walkway_are_no_belts(tmp_path):
     """A foot that is set down rolls forwards."""
     path = tmp_path / "walk.mot"
