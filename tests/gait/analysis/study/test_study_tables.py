@@ -159,6 +159,21 @@ def test_a_workbook_holds_texts_as_texts(tmp_path):
     assert definition_of("heel.impulse_Ns") == ("Heel: force-time integral", "N s")
 
 
+def test_a_table_longer_than_a_sheet_goes_on_in_the_next(tmp_path, monkeypatch):
+    pytest.importorskip("xlsxwriter")
+    openpyxl = pytest.importorskip("openpyxl")
+    monkeypatch.setattr("plantar.gait.analysis.study.workbook.MOST_ROWS", 2)
+    rows = [{"step": k} for k in range(5)]
+    write_workbook(tmp_path / "a.xlsx", {"s" * 40: (["step"], rows)})
+    book = openpyxl.load_workbook(tmp_path / "a.xlsx")
+    parts = ["s" * 31, "s" * 29 + " 2", "s" * 29 + " 3"]
+    assert book.sheetnames == ["definitions", *parts]
+    assert [row for name in parts for row in list(book[name].values)[1:]] == [(k,) for k in range(5)]
+    with pytest.raises(InputError, match="a text of 40000 characters"):
+        write_workbook(tmp_path / "b.xlsx", {"a": (["x"], [{"x": "y" * 40_000}])})
+    assert not (tmp_path / "b.xlsx").exists()
+
+
 @pytest.fixture(scope="module")
 def planted(tmp_path_factory):
     """Seven people, two shoes, two trials: the left forefoot carries more in the second; speed is in the table."""
