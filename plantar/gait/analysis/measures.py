@@ -91,15 +91,29 @@ REGION_MEASURES: Mapping[str, Measure] = {
 """Measures of a region of the foot in a step."""
 
 _PERCENT = (
-    *(("_percent_bw_per_s", "_N_s"), ("_percent_bw_s", "_Ns"), ("_percent_bw", "_N")),
+    ("_percent_bw_per_s", "_N_s"),
+    ("_percent_bw_s", "_Ns"),
+    ("_percent_bw", "_N"),
     ("_percent_foot", "_m"),
 )
 """Ends of keys in percent of body weight and foot length, and those in SI."""
 
+_PERCENT_UNITS = {
+    "_percent_bw_per_s": "% BW/s",
+    "_percent_bw_s": "% BW·s",
+    "_percent_bw": "% BW",
+    "_percent_foot": "% of foot length",
+}
+
 _IN_FEET = (
-    *("cop_path_m", "cop_excursion_ap_m", "cop_excursion_ml_m"),
-    *("step_length_m", "step_width_m", "stride_length_m"),
+    "cop_path_m",
+    "cop_excursion_ap_m",
+    "cop_excursion_ml_m",
+    "step_length_m",
+    "step_width_m",
+    "stride_length_m",
 )
+"""Lengths that are given in percent of the foot's."""
 
 _RAW = (("_Pas", "_raw_s"), ("_Pa", "_raw"), ("_Ns", "_raw_s"), ("_N_s", "_raw_s1"), ("_Nm", "_raw_m"), ("_N", "_raw"))
 
@@ -150,14 +164,6 @@ def unit_of(key: str) -> tuple[str, float]:
     region, _, name = key.rpartition(".")
     measure = (REGION_MEASURES if region else MEASURES).get(name)
     return ("", 1.0) if measure is None else (measure.unit, measure.factor)
-
-
-_PERCENT_UNITS = {
-    "_percent_bw_per_s": "% BW/s",
-    "_percent_bw_s": "% BW·s",
-    "_percent_bw": "% BW",
-    "_percent_foot": "% of foot length",
-}
 
 
 def raw_name(key: str) -> str:
