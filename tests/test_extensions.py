@@ -20,6 +20,9 @@ from plantar.formats import read_recording
 
 ROOT = Path(__file__).resolve().parent.parent
 
+PARTS = ("ditch", "high_swing", "further", "calm_law", "weigh", "hold", "packets")
+"""Files of the tutorial, in its order."""
+
 PAGES = ROOT / "docs" / "tutorials"
 
 
@@ -35,7 +38,7 @@ def plugin(tmp_path):
     package, info = tmp_path / "mine", tmp_path / "mine-1.0.dist-info"
     package.mkdir()
     info.mkdir()
-    files = dict(zip(("ditch", "high_swing", "weigh", "hold", "packets"), blocks("part.md", "python"), strict=True))
+    files = dict(zip(PARTS, blocks("part.md", "python"), strict=True))
     make, files["mysole"], *_ = blocks("format.md", "python")
     for name, text in ({"__init__": ""} | files).items():
         (package / f"{name}.py").write_text(text)
@@ -108,6 +111,26 @@ def test_a_swing_of_a_users_package(plugin):
     assert refused.returncode == 2
     assert "allowed: with control.swing_shape = 'high'" in refused.stderr
     assert "high_swing.more" in plantar(plugin, "list", "settings", "high_swing").stdout
+
+
+def test_a_proposer_and_a_balance_law_of_a_users_package(plugin):
+    pytest.importorskip("mujoco")
+    code = (
+        "import json, plantar; from plantar.sim.run.runner import Simulation; "
+        "settings = ['steps=4', 'settle=0.5', 'balance.law=calm', %s]; "
+        "run = Simulation(plantar.load_scene('flat', settings)); found = run.run(); "
+        "places = [run.controller.plan.view.foothold(k).x for k in range(4)]; "
+        "print(json.dumps([type(run.controller.balance).__name__, found['steps_taken'], places]))"
+    )
+    on, off = "'further.on=true', 'further.distance=0.03'", "'further.on=false'"
+    (law, taken, moved), (_, _, plain) = (json.loads(python(plugin, code % more)) for more in (on, off))
+    assert (law, taken) == ("_Calm", 4)
+    assert np.subtract(moved, plain) == pytest.approx([0.0, 0.0, 0.03, 0.03], abs=1e-9)
+    refused = plantar(plugin, "sim", "flat", "--set", "further.distance=0.03")
+    assert refused.returncode == 2
+    assert "allowed: with further.on = true" in refused.stderr
+    unknown = plantar(plugin, "sim", "flat", "--set", "balance.law=hope")
+    assert "wrench_distribution, calm" in unknown.stderr
 
 
 def test_an_experiment_of_a_users_package(plugin):

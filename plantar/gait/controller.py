@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from plantar.common.sides import SIDES, Side
-from plantar.gait.balance.balance_laws import balance_law
 from plantar.gait.balance.load_transfer import OpenLoop
 from plantar.gait.command import Command, FootTarget, Motors, Sensors
 from plantar.gait.contact.ankle_limits import AnkleLimits
@@ -113,14 +112,15 @@ class WalkingController:
         self.plan = WalkPlan(feet, start.steps, s.timing, middles, omega, start.time)
         arrived = _ARRIVED_SEEING if s.compliance is not None else _ARRIVED
         self.momentum = LegMomentum(self.plan, omega, s.leg_inertia.turning, arrived)
-        self.balance = balance_law(s.balance, omega, s.mass, s.period)
+        self.balance = s.balance.law(omega, s.mass, s.period)
         self._open_loop = OpenLoop(s.mass)
         turns = not self.balance.wants_contacts
         self.footing = Footing(s, feet, layouts, self.plan, self.estimation, middles, limits, turns_stance=turns)
         self.body_targets = BodyTargets(s, self.footing)
         self.foot_targets = FootTargets(s, self.footing)
         asked = proposers(s, layouts, self.plan, feet, begin, middles, self.footing.guard)
-        self._proposers = (*asked, *start.commands)
+        own = tuple(kind.begin(layouts, s.period) for kind in s.proposers)
+        self._proposers = (*asked, *own, *start.commands)
         self._gaps = BodySensors(s.period, _BRIDGED * s.body.beat)
         self._last: Command | None = None
         self._lost = False

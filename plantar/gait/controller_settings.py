@@ -12,7 +12,7 @@ from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import AnkleRules
 from plantar.gait.balance.dcm_balance import BalanceGains
-from plantar.gait.balance.wrench_balance import WrenchBalanceGains
+from plantar.gait.balance.law import LawGains
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.contact.stance_contact import ContactSettings
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
@@ -32,6 +32,7 @@ from plantar.gait.propose.dsp_opt import DspWeights
 from plantar.gait.propose.feasibility import FeasibilityRules
 from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.learned_stride import LearnedStrideRules
+from plantar.gait.propose.proposer_kind import ProposerKind
 from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
 from plantar.gait.propose.step_adjustment import StepAdjustmentRules
 from plantar.gait.propose.step_timing import StepTimingRules
@@ -56,7 +57,8 @@ class ControllerSettings(Settings):
         swing: Swing path.
         ankle_reach: Distance in m along the sole within which an ankle bears the robot.
         trunk_lean: Torso roll in rad per metre of the CoM from the feet's middle.
-        balance: Gains; their class decides the law.
+        balance: Gains; they make the law.
+        proposers: Of other packages, that run in this walk.
         feedback: False walks in open loop, for comparison.
         zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
         ankles: Their force-torque sensors, if any.
@@ -86,7 +88,7 @@ class ControllerSettings(Settings):
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
     lean_reach: float = fixed(53 / 600, "leg")  # Distance in m beyond which the lean stays
     alignment_time: float = fixed(1.21, "beat")  # Time constant in s of the command frame following real footholds
-    balance: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
+    balance: LawGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     dcm_filter: DcmFilterRules | None = None
     identification: IdentificationRules | None = None
@@ -100,6 +102,7 @@ class ControllerSettings(Settings):
     double_support_timing: DoubleSupportTimingRules = field(default_factory=DoubleSupportTimingRules)
     dsp_weights: DspWeights = field(default_factory=DspWeights)
     ankle_strategy: AnkleRules = field(default_factory=AnkleRules)
+    proposers: tuple[ProposerKind, ...] = ()
     push_estimate: PushRules | None = None
     push_felt: NetWrenchRules | None = None
     push_expected: WrenchFilterRules = field(default_factory=WrenchFilterRules)

@@ -9,8 +9,10 @@ from plantar.common.settings.part import Part
 from plantar.common.settings.schema import Setting
 from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError, PlantarError
+from plantar.gait.balance.balance_laws import balance_laws
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.feet.swing_kinds import swing_kinds
+from plantar.gait.propose.proposer_kind import proposer_kinds
 
 
 def _parts() -> tuple[dict[str, tuple[type[Part], ...]], frozenset[str]]:
@@ -23,13 +25,17 @@ def _parts() -> tuple[dict[str, tuple[type[Part], ...]], frozenset[str]]:
                 found[kind.table] = (*found.get(kind.table, ()), kind)
                 if NoneType in get_args(hint):
                     optional.add(kind.table)
-    return found | {kind.table: (kind,) for kind in swing_kinds().values() if kind.table}, frozenset(optional)
+    own = {kind.table: (kind,) for kind in (*swing_kinds().values(), *proposer_kinds()) if kind.table}
+    return found | {"balance": tuple(balance_laws().values())} | own, frozenset(optional)
 
 
 _PARTS = _parts()
 
 CONTROLLER_TABLES: Mapping[str, tuple[type[Part], ...]] = _PARTS[0]
 """Settings classes of each table; `balance` has one for each law."""
+
+_CHOSEN = {"balance": ("law",)}
+"""Keys that choose among a table's classes."""
 
 OPTIONAL_PARTS: frozenset[str] = _PARTS[1]
 """Tables of parts that may be off."""
@@ -43,7 +49,8 @@ def controller_keys(table: str) -> tuple[str, ...]:
         ('contact_force', 'press_force', 'depth', 'speed', 'acceleration', 'reach')
     """
     kinds = CONTROLLER_TABLES[table]
-    return tuple(dict.fromkeys(name for kind in kinds for name in kind.names() if name not in kind.given_by))
+    found = (name for kind in kinds for name in kind.names() if name not in kind.given_by)
+    return tuple(dict.fromkeys((*_CHOSEN.get(table, ()), *found)))
 
 
 def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
@@ -52,6 +59,9 @@ def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) 
     `body`: scales defaults that are shares into SI.
     """
     found: dict[str, Setting] = {}
+    if table == "balance":
+        meaning = "Balance law; one that is not the robot's has default gains."
+        found["law"] = Setting("law", "the robot's", "", ", ".join(balance_laws()), meaning)
     for kind in CONTROLLER_TABLES[table]:
         for setting in kind.described(body):
             found.setdefault(setting.name, setting)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import BodyScale
+from plantar.common.settings.part import Part
 from plantar.common.sides import Side
 from plantar.errors import InputError, SceneError
 from plantar.gait.balance.balance_laws import balance_gains
@@ -15,6 +16,7 @@ from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.controller_tables import CONTROLLER_TABLES, OPTIONAL_PARTS
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
 from plantar.gait.feet.swing_kinds import swing_kinds
+from plantar.gait.propose.proposer_kind import proposer_kinds
 from plantar.mechanics.leg_inertia import LegInertia
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Control, Walk, crouches, walk_timing
@@ -91,11 +93,23 @@ def controller_settings(
     }
     tables = {name: {**defaults.get(name, {}), **given} for name, given in _given(scene, robot).items()}
     swing = swing_kinds()[control.swing_shape]
-    parts: dict[str, Any] = {"balance": balance_gains({**robot.balance, **scene.controller.get("balance", {})})}
-    for name in CONTROLLER_TABLES.keys() - parts.keys() - {kind.table for kind in swing_kinds().values()}:
+    balance = scene.controller.get("balance", {})
+    tuned = {} if balance.get("law", robot.balance.get("law")) != robot.balance.get("law") else robot.balance
+    parts: dict[str, Any] = {"balance": balance_gains({**tuned, **balance})}
+
+    def runs(kind: type[Part]) -> bool:
+        return kind.unmet(lambda key: _value(key, control, tables)) is None
+
+    others = {kind.table for kind in (*swing_kinds().values(), *proposer_kinds())}
+    for name in CONTROLLER_TABLES.keys() - parts.keys() - others:
         (kind,) = CONTROLLER_TABLES[name]
-        runs = name not in OPTIONAL_PARTS or kind.unmet(lambda key: _value(key, control, tables)) is None
-        parts[name] = kind.from_table(tables[name], f"[{name}]", SceneError) if runs else None
+        needed = name not in OPTIONAL_PARTS or runs(kind)
+        parts[name] = kind.from_table(tables[name], f"[{name}]", SceneError) if needed else None
+    proposers = tuple(
+        kind.from_table(tables[kind.table], f"[{kind.table}]", SceneError).for_body(body)
+        for kind in proposer_kinds()
+        if runs(kind)
+    )
     whole, partial = crouches(walk, robot)
     found = ControllerSettings(
         com_height=com_height_of(walk, robot),
@@ -115,6 +129,7 @@ def controller_settings(
         leg_inertia=inertia if control.leg_momentum else _NO_LEGS,
         footholds=control.footholds,
         skin=skin,
+        proposers=proposers,
         **parts,
     )
     try:
@@ -163,9 +178,10 @@ def _value(key: str, control: Control, tables: Mapping[str, Mapping[str, Any]]) 
 
 def _refuse_unused(scene: Task, robot: Robot) -> None:
     tables = _given(scene, robot)
-    for name, given in scene.controller.items():
-        for kind in CONTROLLER_TABLES[name] if given else ():
+    for name, stated in scene.controller.items():
+        for kind in CONTROLLER_TABLES[name] if stated else ():
+            given = [key for key in stated if f"{name}.{key}" not in kind.needs]  # a switch does something
             needed = kind.unmet(lambda key: _value(key, scene.control, tables))
-            if needed is not None:
+            if given and needed is not None:
                 keys = ", ".join(f"{name}.{key}" for key in given)
                 raise SceneError(f"scene '{scene.name}' sets {keys}, which does nothing; allowed: with {needed}")

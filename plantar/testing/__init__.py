@@ -3,6 +3,6 @@
     from plantar.testing.swing import check_swing
     assert check_swing(HighSwing()) == []
 
-`swing`, `terrain`, `proposer`, `recording_format`, `live_source` and `task` hold one function each. They try a part as
-the toolkit uses it, at values that its author may not have thought of.
+`swing`, `terrain`, `proposer`, `balance_law`, `recording_format`, `live_source` and `task` hold one function each. They
+try a part as the toolkit uses it, at values that its author may not have thought of.
 """

@@ -10,6 +10,9 @@ import pytest
 from plantar import Reading, hex_layout
 from plantar.errors import InputError
 from plantar.formats import formats
+from plantar.gait.balance.balance_laws import balance_laws
+from plantar.gait.balance.dcm_balance import BalanceGains
+from plantar.gait.balance.load_transfer import OpenLoop
 from plantar.gait.feet.swing_flight import PolynomialSwing
 from plantar.gait.feet.swing_kind import SwingKind
 from plantar.gait.feet.swing_kinds import swing_kinds
@@ -19,6 +22,7 @@ from plantar.live.source import LiveSource, LiveStream
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.machine import load_machine
 from plantar.sim.terrain import Ground, Solid, Terrain, terrain_kinds
+from plantar.testing.balance_law import check_balance_law
 from plantar.testing.live_source import check_live_source
 from plantar.testing.proposer import check_proposer
 from plantar.testing.recording_format import check_format
@@ -144,3 +148,39 @@ def test_a_task_states_shapes_that_fit():
     assert any("give one of them" in text for text in found)
     short = SimpleNamespace(demand=lambda robot, skin: Demand(row[:, 1:], force=np.zeros(1)))
     assert "the Jacobian has shape" in check_task(short, robot)[0]
+
+
+@pytest.mark.parametrize("name", sorted(balance_laws()))
+def test_built_in_balance_laws_lack_nothing(name):
+    assert check_balance_law(balance_laws()[name]()) == []
+
+
+class Contrary(BalanceGains):
+    """Moves the ZMP away from a DCM that is off, and carries half of the weight."""
+
+    def law(self, omega, mass, period):
+        law = super().law(omega, 0.5 * mass, period)
+        plain = law.update
+
+        def update(reference, dcm, *others):
+            return plain(reference, 2.0 * reference.dcm - dcm, *others)
+
+        law.update = update
+        return law
+
+
+def test_a_law_that_makes_errors_grow_is_named():
+    lacks = check_balance_law(Contrary())
+    assert any("against the DCM's error" in text for text in lacks)
+    assert any("press with 294 N" in text for text in lacks)
+
+
+class Still(BalanceGains):
+    """Follows the plan, which no region bounds."""
+
+    def law(self, omega, mass, period):
+        return OpenLoop(mass)
+
+
+def test_a_law_that_lets_errors_be_may_do_so():
+    assert check_balance_law(Still()) == []

@@ -1,21 +1,26 @@
-"""Balance laws by name; their modules load at first use."""
-
-from __future__ import annotations
+"""Balance laws: built in, and entry points `plantar.balance_laws`."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, TypeAlias
+from functools import cache
+from typing import Any
 
+from plantar.common.extensions import extensions
 from plantar.errors import InputError
-from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
-from plantar.gait.balance.law import BalanceLaw
+from plantar.gait.balance.dcm_balance import BalanceGains
+from plantar.gait.balance.law import LawGains
+from plantar.gait.balance.wrench_balance import WrenchBalanceGains
 
-if TYPE_CHECKING:
-    from plantar.gait.balance.wrench_balance import WrenchBalanceGains
 
-    LawGains: TypeAlias = BalanceGains | WrenchBalanceGains
+@cache
+def balance_laws() -> dict[str, type[LawGains]]:
+    """Laws' gains by the names that `law` in `[balance]` can have; the first is the default.
 
-LAWS = ("com_admittance", "wrench_distribution")
-"""Names of the balance laws."""
+    Example:
+        >>> list(balance_laws())[:2]
+        ['com_admittance', 'wrench_distribution']
+    """
+    own: dict[str, type[LawGains]] = {"com_admittance": BalanceGains, "wrench_distribution": WrenchBalanceGains}
+    return {**own, **extensions("plantar.balance_laws", LawGains, tuple(own))}
 
 
 def balance_gains(table: Mapping[str, Any]) -> LawGains:
@@ -25,22 +30,9 @@ def balance_gains(table: Mapping[str, Any]) -> LawGains:
         >>> balance_gains({"law": "com_admittance", "dcm_gain": 3.0}).dcm_gain
         3.0
     """
-    law = table.get("law", LAWS[0])
-    if law not in LAWS:
-        raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(LAWS)}")
-    kind: type[BalanceGains] | type[WrenchBalanceGains] = BalanceGains
-    if law == "wrench_distribution":
-        from plantar.gait.balance.wrench_balance import WrenchBalanceGains
-
-        kind = WrenchBalanceGains
+    laws = balance_laws()
+    law = table.get("law", next(iter(laws)))
+    if law not in laws:
+        raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(laws)}")
     gains = {k: v for k, v in table.items() if k != "law"}
-    return kind.from_table(gains, "[balance]", note=f" with law '{law}'")
-
-
-def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> BalanceLaw:
-    """The law of these gains. `omega`: pendulum's in rad/s; `mass`: robot's in kg; `period` of control in s."""
-    if isinstance(gains, BalanceGains):
-        return DcmBalance(gains, omega, mass, period)
-    from plantar.gait.balance.wrench_balance import WrenchBalance
-
-    return WrenchBalance(gains, omega, mass, period)
+    return laws[law].from_table(gains, "[balance]", note=f" with law '{law}'")

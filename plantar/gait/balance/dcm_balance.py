@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.settings.part import Part
 from plantar.common.settings.schema import fixed, share
 from plantar.common.sides import Side
 from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
-from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
+from plantar.gait.balance.law import BalanceLaw, BalanceState, Feet, FootAction, FootState, LawGains
 from plantar.gait.balance.load_transfer import transferred
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import ComAdmittance, DcmFeedback
@@ -22,7 +21,7 @@ _PRESS = 0.5  # 1/beat at which it then brings the ZMP to the desired one; four 
 _ZMP_SHARE = 0.3  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
 
 
-class BalanceGains(Part, table="balance"):
+class BalanceGains(LawGains):
     """Gains of the DCM feedback with CoM admittance.
 
     Attributes:
@@ -35,8 +34,10 @@ class BalanceGains(Part, table="balance"):
     zmp_gain: float = share(0.124, "1/beat", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
     zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
-    # Inner offset in m that the desired ZMP keeps from the support polygon's edge
-    zmp_offset: float = fixed(0.06, "sole")
+
+    def law(self, omega: float, mass: float, period: float) -> BalanceLaw:
+        """DCM feedback with CoM admittance."""
+        return DcmBalance(self, omega, mass, period)
 
 
 class DcmBalance:

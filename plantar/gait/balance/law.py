@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.record import Record
+from plantar.common.settings.part import Part
+from plantar.common.settings.schema import fixed
 from plantar.common.sides import Side
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.command_frame import CommandFrame
@@ -99,3 +101,23 @@ class BalanceLaw(Protocol):
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Share the ground's wrench between the feet."""
         ...
+
+
+class LawGains(Part, table="balance"):
+    """Gains of a balance law, which makes the law; `law` in `[balance]` names it.
+
+    Laws of other packages use the entry points "plantar.balance_laws".
+    """
+
+    # Inner offset in m that the desired ZMP keeps from the support polygon's edge
+    zmp_offset: float = fixed(0.06, "sole")
+
+    def law(self, omega: float, mass: float, period: float) -> BalanceLaw:
+        """Returns the law with these gains.
+
+        Args:
+            omega: Pendulum's frequency in rad/s.
+            mass: Robot's in kg.
+            period: Of control in s.
+        """
+        raise NotImplementedError

@@ -12,13 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.common.settings.part import Part
 from plantar.common.settings.schema import Setting, fixed, number, share
 from plantar.common.settings.unknown_keys import refuse_unknown_keys
 from plantar.errors import InputError, PlantarError
 from plantar.gait.balance.dcm_balance import DcmBalance
 from plantar.gait.balance.foot_admittance import AdmittanceGains
-from plantar.gait.balance.law import BalanceState, Feet, FootAction
+from plantar.gait.balance.law import BalanceLaw, BalanceState, Feet, FootAction, LawGains
 from plantar.kernels.gait.sole_admittance import pressed
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
@@ -29,7 +28,7 @@ _NO_WRENCH = np.zeros(6)
 _LENGTH = 1 / 6  # leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m
 
 
-class WrenchBalanceGains(Part, table="balance"):
+class WrenchBalanceGains(LawGains):
     """Gains of the law.
 
     Attributes:
@@ -43,10 +42,12 @@ class WrenchBalanceGains(Part, table="balance"):
     zmp_gain: float = number(0.0, "1/s", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
     zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
-    # Inner offset in m that the desired ZMP keeps from the support polygon's edge
-    zmp_offset: float = fixed(0.06, "sole")
     minimum_force: float = fixed(0.0178, "weight")  # Normal force in N of a standing foot
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
+
+    def law(self, omega: float, mass: float, period: float) -> BalanceLaw:
+        """DCM feedback with wrench distribution."""
+        return WrenchBalance(self, omega, mass, period)
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:

@@ -7,7 +7,7 @@ from msgspec.structs import astuple
 
 from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
-from plantar.gait.balance.balance_laws import balance_gains, balance_law
+from plantar.gait.balance.balance_laws import balance_gains
 from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
 from plantar.gait.balance.law import Feet, FootAction, FootState
 from plantar.gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains, _share
@@ -117,8 +117,8 @@ def test_the_robot_file_names_the_law():
     gains = balance_gains({"law": "wrench_distribution", "dcm_gain": 2.0, "foot_return": 0.5})
     assert isinstance(gains, WrenchBalanceGains)
     assert (gains.dcm_gain, gains.feet.foot_return) == (2.0, 0.5)
-    assert isinstance(balance_law(gains, OMEGA, MASS, PERIOD), WrenchBalance)
-    assert isinstance(balance_law(BalanceGains(), OMEGA, MASS, PERIOD), DcmBalance)
+    assert isinstance(gains.law(OMEGA, MASS, PERIOD), WrenchBalance)
+    assert isinstance(BalanceGains().law(OMEGA, MASS, PERIOD), DcmBalance)
     with pytest.raises(InputError, match="com_admittance, wrench_distribution"):
         balance_gains({"law": "hope"})
     with pytest.raises(InputError, match="dcm_gain"):
