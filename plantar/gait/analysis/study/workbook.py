@@ -34,9 +34,9 @@ def write_workbook(path: Path, tables: Mapping[str, tuple[Sequence[str], Sequenc
     }
     for name, (names, rows) in tables.items():
         for part, begin in enumerate(range(0, max(1, len(rows)), MOST_ROWS), 1):
-            cells = [[row.get(column) for column in names] for row in rows[begin : begin + MOST_ROWS]]
+            values = [[row.get(column) for column in names] for row in rows[begin : begin + MOST_ROWS]]
             end = "" if part == 1 else f" {part}"
-            sheets[name[: _LONGEST_NAME - len(end)] + end] = (names, cells)
+            sheets[name[: _LONGEST_NAME - len(end)] + end] = (names, values)
     options = {"constant_memory": True, "strings_to_formulas": False}
     # Closed in any case, since it keeps rows in files of its own until then.
     with replacing(path) as temporary, closing(xlsxwriter.Workbook(str(temporary), options)) as book:
@@ -47,8 +47,8 @@ def write_workbook(path: Path, tables: Mapping[str, tuple[Sequence[str], Sequenc
             for column, title in enumerate(names):
                 sheet.set_column(column, column, min(_WIDEST, max(10, len(title) + 2)))
                 sheet.write_string(0, column, title, bold)
-            for line, values in enumerate(cells, 1):
-                for column, value in enumerate(values):
+            for line, of_line in enumerate(cells, 1):
+                for column, value in enumerate(of_line):
                     _write(sheet, line, column, value)
     return path
 
