@@ -1,6 +1,6 @@
 """Write docs/licences.md: the licences of the libraries that Plantar depends on, as their packages state them.
 
-python tools/licences.py          # writes the page
+python tools/licences.py          # writes the page; a library that is not installed here keeps its row
 python tools/licences.py --check  # exit code 1 where a declared dependency is not on the page
 """
 
@@ -35,12 +35,18 @@ def declared() -> dict[str, list[str]]:
     return found
 
 
+def stated() -> dict[str, str]:
+    """Licences that the page states by library, as somebody had them installed."""
+    text = PAGE.read_text(encoding="utf-8") if PAGE.is_file() else ""
+    return dict(re.findall(r"^\| ([\w.-]+) \|[^|]*\| (.*?) \|$", text, re.MULTILINE))
+
+
 def licence(name: str) -> str:
     """Licence of an installed package: its SPDX expression, its classifiers, or the first line of its text."""
     try:
         facts = metadata(name)
     except PackageNotFoundError:
-        return "not installed here"
+        return stated().get(name, "not installed here")
     kinds = [c.rpartition(" :: ")[2] for c in facts.get_all("Classifier") or [] if c.startswith("License")]
     own = (facts.get("License") or "").strip().split("\n")[0]
     return str(facts.get("License-Expression") or ", ".join(kinds) or own or "see its package")
@@ -55,9 +61,10 @@ def page() -> str:
 def main() -> None:
     """Write the page, or check it."""
     if sys.argv[1:] == ["--check"]:
-        listed = set(re.findall(r"^\| ([\w.-]+) \|", PAGE.read_text(encoding="utf-8"), re.MULTILINE)) - {"library"}
-        wrong = listed ^ set(declared())
+        wrong = (stated().keys() - {"library"}) ^ declared().keys()
         sys.exit(f"docs/licences.md lacks or has too much: {', '.join(sorted(wrong))}" if wrong else 0)
+    if sys.argv[1:]:
+        sys.exit(f"{' '.join(sys.argv[1:])}: unknown; allowed: nothing, which writes the page, or --check")
     PAGE.write_text(page(), encoding="utf-8")
 
 
