@@ -1,8 +1,8 @@
-"""Squares, round FSRs and a sheet on one sole: fitted, laid out in a file, read back, and what each shows a load.
+"""Round FSRs, a sheet and four load cells on one sole: fitted, laid out in a file, read back, and what each shows.
 
     python examples/sole_other_cells.py [PICTURE.png]
 
-`plantar shoe FOOT --cell square` does the same, and prints the shoe. A cell of your own is a TOML file (docs/shoes.md).
+`plantar shoe FOOT --cell fsr_402_short` does the same, and prints the shoe; a cell of your own is a TOML file.
 """
 
 import sys
@@ -20,7 +20,7 @@ from plantar.sim.sensing.sole_pressure import SolePressure
 foot = foot_from_dimensions("robot", length=0.2, width=0.09, corner_radius=0.03)
 LOAD, COP = 250.0, (0.02, 0.01)  # N; m forward and left
 soles = {}
-for name in ("square", "fsr_402", "sheet"):
+for name in ("fsr_402_short", "velostat", "fx29_100"):
     build = build_shoe(foot, side="left", cell=read_cell(name), layout_only=True)
     with tempfile.TemporaryDirectory() as folder:
         export_shoe(build, folder)

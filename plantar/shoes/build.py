@@ -25,6 +25,8 @@ from plantar.shoes.order import FootSource
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step, mirrored_step
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
+from plantar.shoes.plan.cop_budget import CopBudget, check_cop_budget
+from plantar.shoes.plan.ground_plate import plated
 from plantar.shoes.plan.insole_plan import fit_insole, insole_foot, insole_parameters, plan_insole
 from plantar.shoes.plan.load_share import LoadShare, check_load_share, relieved
 from plantar.shoes.plan.low_wall import lowered_wall
@@ -44,8 +46,7 @@ Rim = Literal["whole", "fine"]  # cells along the edge of the face: whole ones o
 
 RIMS: tuple[Rim, ...] = ("whole", "fine")  # all kinds of rim
 
-_AREAS = (498.0, 359.0, 258.0, 186.0, 134.0, 100.0)  # mm^2 of skin cells where larger ones see too little
-_FARTHER = 2.0  # mm that stated cells, of one size, reach farther beyond the sole where they see too little
+_FARTHER = 2.0  # mm that cells, which have one size, reach farther beyond the sole where they see too little
 _ACTIVE = 0.146  # of the mean load of a taxel: 0.15 kg of the papers' 86 kg over two soles of 42
 
 Progress = Callable[[float, str], None]  # receives the fraction done, 0..1, and what is being done
@@ -93,6 +94,7 @@ class ShoeBuild:
         notes: Detected, assumed and decided.
         kind: "shoe", or "insole": flat without walls.
         touching: None of an insole.
+        cop: Error of the center of pressure, by cause; None of an insole.
     """
 
     foot: Foot
@@ -104,6 +106,7 @@ class ShoeBuild:
     notes: tuple[str, ...] = ()
     kind: Literal["shoe", "insole"] = "shoe"
     touching: Touching | None = None
+    cop: CopBudget | None = None
 
 
 def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
@@ -137,7 +140,7 @@ def build_shoe(
         side: "left", "right" or "both"; right mirrors left.
         cell_area: Taxel in mm^2.
         taxels: Their number; None takes as many whole cells as fit.
-        overhang: Allowed reach beyond the sole in mm; more with `taxels`, or where a `cell` would not see the CoP.
+        overhang: Allowed reach beyond the sole in mm; more with `taxels`, or where cells would not see the CoP.
         rim: "whole" cells, or "fine": smaller ones along the edge.
         cell: Other cells than skin hexagons, see `read_cell`, in place of `rim` and `cell_area`.
         parameters: Dimensions.
@@ -181,20 +184,24 @@ def build_shoe(
     p, led = led_parameters(left, p)
     load = load_case(foot, p)
     left, gentle = _sensitive(left, load.mass)
+    p, plate = plated(left, load, p)
     p, soft = softened(left, load, p)
     p, lowered = relieved(left, load, p)
-    changed = (*of_cell, *low, *chosen, *fit.notes, *gentle, *raised, *led, *soft, *lowered, *left.notes)
+    changed = (*of_cell, *low, *chosen, *fit.notes, *gentle, *raised, *led, *plate, *soft, *lowered, *left.notes)
     notes = (*foot.notes, *changed, *_blind_note(left, fit))
     if load.source.startswith("estimated"):
         notes = (*notes, f"the robot's mass is taken as {load.mass:g} kg, {load.source}")
     share = check_load_share(left, load, p)
     touching = check_touching(left, load, p)
+    cop = check_cop_budget(left, load, p)
     if layout_only:
         report(1.0, "layouts fitted")
-        return ShoeBuild(foot, fit, p, _planned_sides(foot, left, sides, p), share, notes=notes, touching=touching)
+        return ShoeBuild(
+            foot, fit, p, _planned_sides(foot, left, sides, p), share, notes=notes, touching=touching, cop=cop
+        )
     retention = choose_retention(foot, left, p)
     shoes = _built_sides(foot, left, shoe_steps(foot, left, retention, p), p, sides, report)
-    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
+    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching, cop=cop)
 
 
 def _read(foot: Foot | str | os.PathLike[str], parameters: ShoeParameters | None) -> Foot:
@@ -216,52 +223,50 @@ def _fitted(
     face = foot.passing(p.rim_height)
     reach = max(overhang, p.clearance + wall - p.border)
 
-    def placed(area: float, reach: float) -> tuple[TaxelFit, ShoePlan]:
+    def placed(reach: float) -> tuple[TaxelFit, ShoePlan]:
         over = reach if taxels is None else overhang
         options = {"overhang": over, "overhang_max": p.overhang_max, "border": p.border}
         if cell is not None:
             found = fit_cells(face, cell, rib=p.rib, taxels=taxels, **options)
         elif rim == "fine":
-            found = fit_fine_rim(face, cell_area=area, overhang=reach, border=p.border)
+            found = fit_fine_rim(face, cell_area=cell_area, overhang=reach, border=p.border)
         else:
-            found = fit_taxels(face, cell_area=area, taxels=taxels, **options)
+            found = fit_taxels(face, cell_area=cell_area, taxels=taxels, **options)
         return found, plan_shoe(foot, found, replace(p, border=found.border), name=name)
 
-    tries = [(cell_area, reach)]
-    if taxels is None and cell is not None:
+    tries = [reach]
+    if taxels is None and rim == "whole":
         most = p.overhang_max - CORNER * p.border
-        tries += [(cell_area, float(r)) for r in np.arange(reach + _FARTHER, most, _FARTHER)]
-    elif taxels is None and rim == "whole":
-        tries += [(area, reach) for area in _AREAS if area < cell_area]
-    return _observed(placed, tries)
+        tries += [float(r) for r in np.arange(reach + _FARTHER, most, _FARTHER)]
+    fit, left, notes = _observed(placed, tries)
+    if cell is None and taxels is None and rim == "whole" and not observability(left).holds:
+        raise FootError(
+            f"cells of {cell_area:g} mm^2 do not see the center of pressure along and across this sole; allowed: "
+            "--cell auto, which chooses cells that can be bought, or a smaller --cell-area"
+        )
+    return fit, left, notes
 
 
 def _observed(
-    placed: Callable[[float, float], tuple[TaxelFit, ShoePlan]], tries: list[tuple[float, float]]
+    placed: Callable[[float], tuple[TaxelFit, ShoePlan]], tries: list[float]
 ) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
-    """Cells and plan of the first cell area and reach that observe the CoP both ways, else of the only area."""
+    """Cells and plan of the first reach that observes the CoP both ways, else of the least."""
     problem = None
     kept = None
-    first, least = tries[0]
-    last, _ = tries[-1]
-    for area, reach in tries:
+    least = tries[0]
+    for reach in tries:
         try:
-            found = placed(area, reach)
+            found = placed(reach)
         except FootError as error:
             problem = problem or error
             continue
         if observability(found[1]).holds:
-            text = f"cells of {area:g} instead of {first:g} mm2: larger ones"
-            if reach != least:
-                text = f"the cells reach up to {reach:.1f} mm beyond the sole: within {least:.1f} mm they"
-            text += " would not see the center of pressure both ways"
-            return *found, () if (area, reach) == tries[0] else (text,)
+            text = (
+                f"the cells reach up to {reach:.1f} mm beyond the sole: within {least:.1f} mm they would not see the "
+                "center of pressure both ways"
+            )
+            return *found, () if reach == least else (text,)
         kept = kept or found
-    if last != first:
-        reason = "" if problem is None else f" ({problem})"
-        raise FootError(
-            f"no cells of {last:g} to {first:g} mm^2 see the center of pressure along and across this sole{reason}"
-        )
     if kept is not None:
         return *kept, ()
     raise problem or FootError("no cells fit")

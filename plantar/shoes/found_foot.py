@@ -16,11 +16,13 @@ from plantar.shoes.foot.foot import Foot, foot_from_outline
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.geometry.outline import tidy
 from plantar.shoes.papers.export import export_shoe
+from plantar.shoes.plan.touching import observability
 from plantar.shoes.units import MM_PER_M, to_m
 
 TAXELS = 42  # taxels of the papers' soles, which a smaller sole has, too: what they measure depends on their number
 
 _THRESHOLD = 0.146  # of the mean load of a taxel of a standing robot: 0.15 kg of the papers' 86 kg over two soles of 42
+_SMALLER = 0.72  # of an area, that is tried next
 _AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the papers have
 
 
@@ -74,7 +76,7 @@ def shoe_for_surface(
         FootError: If taxels do not fit.
     """
     foot = replace(_foot(name, triangles), mass=mass)
-    area = taxel_area(foot.sole.area)
+    area = _observing_area(foot)
     build = _adapted(build_shoe(foot, cell_area=area, layout_only=True), mass)
     weight = None
     notes = build.notes
@@ -95,6 +97,23 @@ def shoe_for_surface(
     level = build.shoes[0].layout.force_threshold
     found = (f"{len(build.shoes[0].layout)} taxels of {area:g} mm^2, each active from {level:.2g} N on", *notes)
     return FoundShoes(to_m(build.parameters.thickness), weight, found)
+
+
+def _observing_area(foot: Foot) -> float:
+    """Area of simulated taxels in mm^2: `taxel_area`, or less where these would not see the center of pressure."""
+    wanted = taxel_area(foot.sole.area)
+    area = wanted
+    problem = None
+    while area >= _AREAS[0]:
+        try:
+            if observability(build_shoe(foot, cell_area=area, layout_only=True).shoes[0].plan).holds:
+                return area
+        except FootError as error:
+            problem = error
+        area = round(_SMALLER * area)
+    if problem is not None:
+        raise problem
+    return wanted
 
 
 def _adapted(build: ShoeBuild, mass: float) -> ShoeBuild:

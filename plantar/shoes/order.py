@@ -55,8 +55,9 @@ class ShoeOrder:
     )
     cell: str | None = _option(
         None,
-        "Other cells: hex, square, fsr_402, fsr_402_long, sheet, or a TOML file of the cell's body (docs/shoes.md). "
-        "Default: hexagons of --cell-area.",
+        "Other cells: auto (by the robot's weight), fsr_402, fsr_402_short, fsr_406, velostat, fx29_25, fx29_100, "
+        "fx29_200, hex, or a TOML file of the cell's body (docs/shoes.md). Default: a laboratory's hexagons of "
+        "--cell-area.",
         metavar="CELL",
     )
     name: str | None = _option(None, "Name of the shoe. Default: that of the file or robot.")

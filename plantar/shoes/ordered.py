@@ -1,5 +1,6 @@
 """An order's shoe or insole, built, or its coupons."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from plantar.errors import InputError
 from plantar.shoes.build import Progress, ShoeBuild, build_insole, build_shoe
+from plantar.shoes.cell_choice import choose_cell
 from plantar.shoes.cells.cell import Cell, read_cell
 from plantar.shoes.coupon import build_coupons, write_coupons
 from plantar.shoes.foot.foot import Foot
@@ -26,7 +28,12 @@ def build_ordered(
     """
     light = order.layout_only or order.coupon
     common: dict[str, Any] = {"side": order.side, "cell_area": order.cell_area, "name": order.name}
-    common["cell"] = ordered_cell(order)
+    chosen = None
+    if order.cell == "auto":
+        if order.insole is not None:
+            raise InputError("--cell auto chooses for a robot's shoe; of an insole give --cell velostat")
+        chosen = choose_cell(foot, parameters)
+    common["cell"] = ordered_cell(order) if chosen is None else chosen.cell
     common |= {"parameters": parameters, "layout_only": light, "progress": progress}
     if order.coupon and order.layout_only:
         raise InputError("--coupon writes prints, --layout-only none; give one of them")
@@ -35,21 +42,22 @@ def build_ordered(
     if order.insole is None:
         rim = order.rim or "whole"
         wanted = order.taxels if order.taxels is not None or rim == "fine" or order.cell is not None else taxels
-        return build_shoe(foot, taxels=wanted, overhang=order.overhang, rim=cast(Any, rim), **common)
+        build = build_shoe(foot, taxels=wanted, overhang=order.overhang, rim=cast(Any, rim), **common)
+        return build if chosen is None else replace(build, notes=(*chosen.notes, *build.notes))
     if order.taxels is not None or order.overhang > 0.0:
         raise InputError("an insole takes the taxels that fit in the foot's outline; leave out --taxels, --overhang")
     return build_insole(foot, order.insole, rim=cast(Any, order.rim or "fine"), **common)
 
 
 def ordered_cell(order: ShoeOrder) -> Cell | None:
-    """Cell of an order; None for skin hexagons."""
+    """Cell of an order; None for skin hexagons, and where it is to be chosen."""
     if order.cell is None:
         return None
     if order.rim == "fine":
         raise InputError("a fine rim is made of skin; with --cell leave --rim out, or give --rim whole")
     if order.cell_area != ShoeOrder().cell_area:
         raise InputError("--cell states how large a cell is; leave --cell-area out")
-    return read_cell(order.cell)
+    return None if order.cell == "auto" else read_cell(order.cell)
 
 
 def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | None = None) -> dict[str, Any]:

@@ -133,6 +133,12 @@ class ShoeParameters:
     material: str = choice("PA12", tuple(MATERIALS), "printed material")
     process: str = choice("auto", ("auto", *PROCESSES), "how it is printed; auto: as the material usually is")
     retention: str = choice("auto", RETENTIONS, "how the shoe is held on the foot")
+    pad_kind: str = choice("soft", ("soft", "plate"), "rubber or foam, or a printed plate, which a few cells need")
+    use: str = choice(
+        "contact",
+        ("contact", "gait", "balance"),
+        "what the center of pressure is for; its error may be 0.4 of the width, 0.05 of the length, 0.05 of the width",
+    )
     strengthen: str = choice("yes", ("yes", "no"), "raise floor, wall, relief and softness of the pad as far as needed")
 
     def __post_init__(self) -> None:
@@ -191,6 +197,8 @@ class ShoeParameters:
 
     @property
     def pad_material(self) -> str:
+        if self.pad_kind == "plate":
+            return f"{self.material}, printed"
         if self.pad_foam > 0.0:
             return f"foam sheet, {self.pad_foam:g} kPa or less at 25 % (ASTM D1056, D3574)"
         return f"silicone, about {self.pad_hardness:g} Shore A"

@@ -130,6 +130,11 @@ class Witness:
         if self.cell["kind"] == "sheet":  # pressed by one land, which is free at its own edge alone
             recess = float(shapely.area(list(map(shapely.Polygon, cells))).sum())
             area, around = recess, 2.0 * np.sqrt(np.pi * recess)
+        if self.p["pad_kind"] == "plate":  # a rigid plate: the middle of each half lies between the cells
+            hull = shapely.MultiPoint(self.centres).convex_hull
+            middle = 0.5 * (outline[:, 0].min() + outline[:, 0].max())
+            heel = shapely.Polygon(outline) & shapely.box(outline[:, 0].min(), -1e3, middle, 1e3)
+            return "" if hull.covers(heel.centroid) and hull.covers(shapely.Polygon(outline).centroid) else "tips"
         hardness = self.p["taxel_hardness" if self.cell["kind"] == "tile" else "pad_hardness"]
         bed = soft / _modulus(hardness, area, around, soft)
         bed += self.p["pad_thickness"] / _modulus(self.p["pad_hardness"], area, around, self.p["pad_thickness"])

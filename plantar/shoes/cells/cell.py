@@ -24,11 +24,17 @@ _BOTH = (("tail_length", "tail_width"), ("active_length", "active_width"), ("con
 
 SHAPES = ("hex", "square", "rectangle", "round", "sheet")  # what a cell's body is
 
+# How cells are read: each by a divider of its own, by a bridge amplifier of its own, on rows and columns, or as their
+# maker does, who states no wiring
+CIRCUITS = ("own", "divider", "bridge", "matrix")
+
 _ALL = (
-    *("name", "about", "source", "shape", "pitch_x", "pitch_y"),
+    *("name", "about", "maker", "part", "data_sheet", "source", "shape", "pitch_x", "pitch_y"),
     *("thickness", "stiffness", "rated_load", "threshold", "play", "bend_radius"),
+    *("circuit", "gain_scatter", "hysteresis", "drift", "crosstalk", "rise_time"),
 )
-_LEADS = ("leads", "lead_diameter")
+_LEADS = ("leads", "lead_diameter", "lead_colours", "count")
+_LEAST_LEADS = {"divider": 2, "bridge": 4}
 _TAIL = ("tail_length", "tail_width", "connector_length", "connector_height")
 # The keys that a cell's TOML may have, by its shape
 KEYS: Mapping[str, tuple[str, ...]] = {
@@ -36,7 +42,7 @@ KEYS: Mapping[str, tuple[str, ...]] = {
     "square": (*_ALL, "size", "active", "lattice", *_LEADS, *_TAIL),
     "rectangle": (*_ALL, "length", "width", "active_length", "active_width", "lattice", *_LEADS, *_TAIL),
     "round": (*_ALL, "size", "active", "lattice", *_LEADS, *_TAIL),
-    "sheet": (*_ALL, "line_width", "edge", "tail_pitch"),
+    "sheet": (*_ALL, "lattice", "line_width", "edge", "tail_pitch"),
 }
 
 
@@ -53,6 +59,9 @@ class Cell:
     shape: str = choice("square", SHAPES, "of the body; of a sheet it is the sole's outline")
     name: str = text("", "name in the files; left out: the TOML file's")
     about: str = text("", "what it is, in a line")
+    maker: str = text("", "who makes or sells it; left out: no shop does")
+    part: str = text("", "part number to order")
+    data_sheet: str = text("", "address of its data sheet or product page")
     source: str = text("", "where the figures are from")
     size: float = mm(0.0, 4.0, 120.0, "body across: flat to flat, side or diameter")
     length: float = mm(0.0, 4.0, 120.0, "body of a rectangle, along the rows")
@@ -64,6 +73,9 @@ class Cell:
     active_width: float = mm(0.0, 2.0, 120.0, "of a rectangle, as active")
     pitch_x: float = mm(0.0, 2.0, 200.0, "from centre to centre within a row; left out: as near as the ribs allow")
     pitch_y: float = mm(0.0, 2.0, 200.0, "from row to row; left out: as near as the ribs allow")
+    count: float = number(
+        0.0, 1.0, 12.0, "cells", "of a foot, as far apart as the sole allows; left out: as many as fit"
+    )
     lattice: str = choice(
         "auto", ("auto", "square", "hex"), "hex: every other row is shifted by half; auto: of round ones"
     )
@@ -74,6 +86,13 @@ class Cell:
     play: float = mm(0.2, 0.0, 2.0, "gap between the body and its pocket")
     leads: float = number(0.0, 0.0, 40.0, "leads", "each cell's own to the heel; 0: a cable from cell to cell")
     lead_diameter: float = mm(0.6, 0.1, 3.0, "of a lead with its insulation")
+    lead_colours: str = text("", "what each lead is and its colour, as E+ red, E- black, A+ green, A- white")
+    circuit: str = choice("own", CIRCUITS, "how it is read; own: as its maker does")
+    gain_scatter: float = number(0.0, 0.0, 1.0, "share", "standard deviation of the gain from cell to cell")
+    hysteresis: float = number(0.0, 0.0, 1.0, "share", "by which a reading is larger while the load falls")
+    drift: float = number(0.0, 0.0, 1.0, "share", "by which a reading under load changes a decade of time")
+    crosstalk: float = number(0.0, 0.0, 0.5, "share", "of a cell's reading that its neighbours have together")
+    rise_time: float = number(0.0, 0.0, 10.0, "s", "of its response")
     tail_length: float = mm(0.0, 1.0, 120.0, "straight tail beyond the body, along the rows")
     tail_width: float = mm(0.0, 1.0, 60.0, "of the tail")
     connector_length: float = mm(0.0, 1.0, 60.0, "connector at the tail's end and as wide, along the tail")
@@ -112,8 +131,19 @@ class Cell:
             raise InputError("cell with an active area has no thickness; a land of the pad presses on its face")
         if self.stiffness and not self.thickness:
             raise InputError("cell key stiffness is that of a body with a thickness; give both, or none for rubber")
-        if self.leads != round(self.leads):
-            raise InputError(f"cell key leads is {self.leads:g}; allowed: a whole number, 0 to 40")
+        for name, most in (("leads", 40), ("count", 12)):
+            if getattr(self, name) != round(getattr(self, name)):
+                raise InputError(f"cell key {name} is {getattr(self, name):g}; allowed: a whole number, 0 to {most}")
+        if (self.circuit == "matrix") != (self.shape == "sheet") and self.circuit != "own":
+            raise InputError(
+                f"cell key circuit is '{self.circuit}' of a {self.shape} cell; allowed: matrix of a sheet, divider or "
+                "bridge of other cells"
+            )
+        if self.circuit in _LEAST_LEADS and self.leads < _LEAST_LEADS[self.circuit]:
+            raise InputError(
+                f"cell key leads is {self.leads:g}; allowed: {_LEAST_LEADS[self.circuit]} or more with circuit "
+                f"'{self.circuit}'"
+            )
 
     def _check_sizes(self) -> None:
         pairs = [
@@ -202,7 +232,7 @@ def built_in_cells() -> dict[str, Path]:
 
     Example:
         >>> sorted(built_in_cells())
-        ['fsr_402', 'fsr_402_long', 'hex', 'sheet', 'square']
+        ['fsr_402', 'fsr_402_short', 'fsr_406', 'fx29_100', 'fx29_200', 'fx29_25', 'hex', 'velostat']
     """
     return {path.stem: path for path in packaged_files("plantar.shoes", "cells/*.toml")}
 
@@ -214,8 +244,8 @@ def read_cell(name: str | os.PathLike[str]) -> Cell:
         InputError: If unknown, unreadable or unfit.
 
     Example:
-        >>> read_cell("square").kind
-        'tile'
+        >>> read_cell("fsr_402").part
+        '30-81794 (FSR 402)'
     """
     known = built_in_cells()
     path = known.get(str(name), Path(name))

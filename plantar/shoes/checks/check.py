@@ -17,11 +17,12 @@ from plantar.shoes.geometry.outline import ring
 from plantar.shoes.geometry.section import thinnest_wall
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import bend_at_heel, lead_rooms
+from plantar.shoes.plan.ground_plate import ground_plate, has_ground_plate
 from plantar.shoes.plan.insole_plan import EVEN_SHARE, even_share
 from plantar.shoes.plan.load_share import LoadShare
 from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff
 from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan
-from plantar.shoes.plan.strength import LoadCase, Member, check_strength
+from plantar.shoes.plan.strength import LoadCase, Member, check_strength, load_case
 from plantar.shoes.plan.touching import ACROSS, ACTIVE_LEAST, ALONG, AREA_OFF, COP_OFF, ERROR, observability
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
 from plantar.shoes.solid.kernel import SHORTEST
@@ -108,6 +109,8 @@ def check_shoe(
     mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p) if shoe_kind else None
     load, members = check_strength(build.foot, left.contact, p)
     members = members if shoe_kind else ()  # an insole bends with the foot and has no wall
+    if has_ground_plate(left):
+        members = (*members, ground_plate(left, load, p))
     share = build.load_share
     weights = weigh(shoe, build, volume)
     retention = build.retention
@@ -130,7 +133,7 @@ def check_shoe(
             for q in lead_rooms(shoe.plan, p)
         ),
         *_bend_checks(shoe.plan, p),
-        *_strength_checks(load, members, build, len(shoe.layout)),
+        *_strength_checks(members, build),
         *_printing_checks(printing[0], shoe.plan, p),
     )
     size = np.ptp(surface.reshape(-1, 3), axis=0)
@@ -194,6 +197,8 @@ def _layout_checks(shoe: Shoe, p: ShoeParameters, step: StepSolid) -> Iterator[C
     yield _most("pocket corners against the layout, mm", pockets, 0.05, 6)
     outside = _taxels_outside(shoe)
     yield Check("taxels beyond the contact face", outside == 0, float(outside), "0")
+    if has_ground_plate(shoe.plan):
+        return
     fewest, where = shoe.plan.fewest_taxels
     yield Check(f"taxels in the {where}, the barest of five places", fewest > 0, float(fewest), "1 or more")
 
@@ -203,12 +208,18 @@ def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
         return
     seen = observability(plan)
     touching = build.touching
+    p = build.parameters
     yield _least("taxels' centres over the face's length, %", 100.0 * seen.along, 100.0 * ALONG)
     yield _least("taxels' centres over the face's width, %", 100.0 * seen.across, 100.0 * ACROSS)
     most = ERROR * seen.width
     name = "error of the center of pressure for a load anywhere on the face, mm"
     yield Check(name, seen.error <= most, seen.error, f"{most:.1f} or less")
-    if touching is None:
+    if build.cop is not None:
+        name = f"center of pressure off by seats, gains, hysteresis, threshold, range, crosstalk and rim ({p.use}), mm"
+        yield Check(name, build.cop.holds, build.cop.together, f"{build.cop.limit:g} or less")
+    each = cell_load(plan, load_case(build.foot, p), p)
+    yield _most("load of a taxel, N", each, plan.layout.ranges["force"][1])
+    if touching is None or has_ground_plate(plan):  # a few cells below a plate see force and its center, no footprint
         return
     at = f"at half the weight, seats within {touching.scatter:g} mm (1 sigma)"
     yield _least(f"taxels active {at}, %", 100.0 * touching.active, 100.0 * ACTIVE_LEAST)
@@ -259,12 +270,15 @@ def _bend_checks(plan: ShoePlan, p: ShoeParameters) -> Iterator[Check]:
         yield _least("bend of the cable up the heel, mm", bend_at_heel(plan.cell, p), plan.cell.bend_radius, 2)
 
 
-def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBuild, taxels: int) -> Iterator[Check]:
+def cell_load(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> float:
+    """Gives the most that a cell of a plan carries of a load, by parameters: all of it of a few below a plate."""
+    return load.force if has_ground_plate(plan) else load.force / max(1.0, parameters.load_share * len(plan.layout))
+
+
+def _strength_checks(members: tuple[Member, ...], build: ShoeBuild) -> Iterator[Check]:
     p = build.parameters
     for m in members:
         yield Check(f"stress of the {m.name}, MPa", m.holds, m.stress, f"{m.allowed:g} or less ({p.material})")
-    each = load.force / max(1.0, p.load_share * taxels)
-    yield _most("load of a taxel, N", each, build.shoes[0].layout.ranges["force"][1])
     if build.retention is not None and build.retention.strain > 0.0:
         yield _most("strain of a clip's arm, %", 100.0 * build.retention.strain, 100.0 * p.printed.strain, 2)
 

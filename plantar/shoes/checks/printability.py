@@ -122,6 +122,12 @@ class Weights:
         return asdict(self) | {"total": round(self.total, 2)}
 
 
+def _pad_density(p: ShoeParameters) -> float:
+    if p.pad_kind == "plate":
+        return p.printed.density
+    return _FOAM_DENSITY if p.pad_foam > 0.0 else p.pad_density
+
+
 def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
     """Gives masses of a build's shoe with a printed volume in mm^3."""
     p = build.parameters
@@ -129,7 +135,7 @@ def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
     board = p.board_length * BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0
     return Weights(
         printed=round(volume / 1000.0 * p.printed.density, 2),
-        pad=round(pad / 1000.0 * (_FOAM_DENSITY if p.pad_foam > 0.0 else p.pad_density), 2),
+        pad=round(pad / 1000.0 * _pad_density(p), 2),
         skin=round(_skin(shoe, p) / 1000.0 * p.skin_density, 2),
         board=round(board, 2),
     )

@@ -18,6 +18,7 @@ from plantar.shoes.fit.cell_pattern import (
     pattern_of,
     pocket_parts,
 )
+from plantar.shoes.fit.few_cells import fit_few_cells
 from plantar.shoes.fit.lattice_fit import fit_lattice
 from plantar.shoes.fit.taxels import TaxelFit, rows_and_columns
 from plantar.shoes.geometry.outline import CORNER, grown, ring, tidy
@@ -56,6 +57,10 @@ def fit_cells(
         if taxels is not None:
             raise InputError("a sheet has as many crossings as the outline holds; leave --taxels out")
         return _sheet(foot, tidy(grown(foot, overhang)), cell, rib, overhang, border)
+    if cell.count:
+        if taxels is not None:
+            raise InputError(f"cell {cell.label} states how many a foot has ({cell.count:g}); leave --taxels out")
+        return fit_few_cells(foot, tidy(grown(foot, overhang)), cell, rib=rib, overhang=overhang, border=border)
     pattern = pattern_of(cell, rib)
     if taxels is None:
         fit = fit_lattice(tidy(grown(foot, overhang)), pattern=pattern)
@@ -118,15 +123,13 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     edge = region.buffer(-cell.play - 0.5 * rib, join_style="mitre")
     sheet = tidy(edge) if not edge.is_empty else edge
     inside = sheet.buffer(-cell.edge, join_style="mitre")
-    at = _crossings(region, inside, cell)
-    px = 0.5 * cell.pitch_x
-    py = 0.5 * cell.pitch_y
-    lines = np.column_stack([_ranks(at[:, 1]), _ranks(at[:, 0])])
+    at, lines = _crossings(region, inside, cell)
+    outline = _around_crossing(cell)
     cells = []
     kept_lines = []
     crossings = []
     for (cx, cy), line in zip(at.tolist(), lines, strict=True):
-        whole = shapely.box(cx - px, cy - py, cx + px, cy + py)
+        whole = shapely.Polygon(outline + np.array([cx, cy]))
         part = whole if sheet.covers(whole) else shapely.intersection(whole, sheet, grid_size=1e-4)
         part = max(getattr(part, "geoms", [part]), key=lambda g: g.area)
         if part.area >= _LEAST_CELL * whole.area:
@@ -163,8 +166,25 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     )
 
 
-def _crossings(region: Any, inside: Any, cell: Cell) -> Array:
-    """Crossings (n, 2) at the offset with most electrodes inside."""
+def _shifted(cell: Cell) -> bool:
+    """Whether every other row of a sheet is shifted by half a pitch: its columns zigzag."""
+    return cell.lattice == "hex"
+
+
+def _around_crossing(cell: Cell) -> Array:
+    """Corners (k, 2) of what is nearer to a crossing at the origin than to any other."""
+    px = 0.5 * cell.pitch_x
+    py = cell.pitch_y
+    if not _shifted(cell):
+        return np.array([[-px, -0.5 * py], [px, -0.5 * py], [px, 0.5 * py], [-px, 0.5 * py]])
+    # Of a shifted row the neighbour lies at (px, py): the bisector meets x = px and x = 0 there.
+    side = (px**2 + py**2) / (2.0 * py)
+    low = (px**2 + py**2 - 2.0 * px**2) / (2.0 * py)
+    return np.array([[0.0, -side], [px, -low], [px, low], [0.0, side], [-px, low], [-px, -low]])
+
+
+def _crossings(region: Any, inside: Any, cell: Cell) -> tuple[Array, NDArray[np.int64]]:
+    """Crossings (n, 2) at the offset with most electrodes inside, and their rows and columns (n, 2)."""
     half = 0.5 * cell.line_width
     low_x, low_y, high_x, high_y = region.bounds
     most = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y
@@ -173,25 +193,31 @@ def _crossings(region: Any, inside: Any, cell: Cell) -> Array:
             f"cell {cell.label}: a sheet of {most:.0f} rows and columns; allowed: {LINES_MOST} together, "
             "with a larger pitch_x and pitch_y"
         )
-    best: tuple[tuple[float, ...], Array] | None = None
+    best: tuple[tuple[float, ...], Array, NDArray[np.int64]] | None = None
     shapely.prepare(inside)
     centre = np.array([region.centroid.x, region.centroid.y])
     for u in np.arange(_SAMPLES) / _SAMPLES:
         for v in np.arange(_SAMPLES) / _SAMPLES:
             x = np.arange(low_x - u * cell.pitch_x, high_x, cell.pitch_x)
             y = np.arange(low_y - v * cell.pitch_y, high_y, cell.pitch_y)
-            at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2).round(4)
+            columns, rows = (v.ravel() for v in np.meshgrid(np.arange(len(x)), np.arange(len(y))))
+            at = np.column_stack([x[columns], y[rows]])
+            if _shifted(cell):
+                at[:, 0] += 0.5 * cell.pitch_x * (rows % 2)
+            at = at.round(4)
             boxes = shapely.box(at[:, 0] - half, at[:, 1] - half, at[:, 0] + half, at[:, 1] + half)
-            kept = at[shapely.covers(inside, boxes)] if not inside.is_empty else at[:0]
+            within = np.zeros(len(at), dtype=bool) if inside.is_empty else shapely.covers(inside, boxes)
+            kept = at[within]
             if len(kept):
                 score = (float(len(kept)), -round(float(np.hypot(*(kept.mean(axis=0) - centre))), 3))
-                best = (score, kept) if best is None or score > best[0] else best
+                if best is None or score > best[0]:
+                    best = (score, kept, np.column_stack([_ranks(rows[within]), _ranks(columns[within])]))
     if best is None:
         raise FootError(
             f"no crossing of electrodes of {cell.line_width:g} mm lies inside the sole; use thinner lines or edge"
         )
-    return best[1]
+    return best[1], best[2]
 
 
-def _ranks(values: Array) -> NDArray[np.int64]:
-    return np.unique(values.round(3), return_inverse=True)[1].astype(np.int64)
+def _ranks(values: NDArray[np.int64]) -> NDArray[np.int64]:
+    return np.unique(values, return_inverse=True)[1].astype(np.int64)

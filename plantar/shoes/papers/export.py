@@ -79,6 +79,7 @@ class ShoeReport:
             "taxel_overhang_mm": round(fit.overhang, 3),
             "thickness_mm": round(build.parameters.thickness, 3),
             "touching": None if build.touching is None else asdict(build.touching),
+            "cop": None if build.cop is None else asdict(build.cop),
             "poses": {s.side: None if s.layout.pose is None else s.layout.pose.as_dict() for s in build.shoes},
             "notes": list(build.notes or build.foot.notes),
         }

@@ -99,8 +99,10 @@ def led_parameters(
             )
     elif cell.leads:
         if deepen:
-            short = max((r.needed / r.room for r in lead_rooms(plan, p) if "channel" not in r.name), default=0.0)
-            depth = min(_DEEPEST, math.ceil(10.0 * (p.pocket_depth * max(1.0, short) + cell.thickness)) / 10.0)
+            rooms = [r for r in lead_rooms(plan, p) if "channel" not in r.name]
+            short = max((r.needed / r.room if r.room > 0.0 else math.inf for r in rooms), default=0.0)
+            wanted = p.pocket_depth * max(1.0, short) + cell.thickness
+            depth = math.ceil(10.0 * min(_DEEPEST, wanted)) / 10.0
             if short > 1.0:
                 notes.append(
                     f"pocket_depth raised from {p.pocket_depth:g} to {depth:g} mm: the cells' leads pass there"

@@ -27,6 +27,7 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.ground_plate import has_ground_plate, plate_carries
 from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
 from plantar.shoes.plan.strength import LoadCase
 
@@ -104,7 +105,7 @@ def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float)
         own = plan.lands and p.pad_thickness > 0.0
         of_head = pad_modulus(p, area, perimeter, height, pressure) if own else 0.0
         soft += height / (of_head or apparent_modulus(hardness, area, perimeter, height))
-    if p.pad_thickness > 0.0:
+    if p.pad_thickness > 0.0 and p.pad_kind == "soft":
         soft += p.pad_thickness / pad_modulus(p, area, perimeter, p.pad_thickness, pressure)
     return 1.0 / soft
 
@@ -112,7 +113,7 @@ def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float)
 def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
     """Gives parameters with the pad's relief raised by 0.1 mm until a plan's taxels carry the load, and a note."""
     p = parameters
-    if p.strengthen == "no":
+    if p.strengthen == "no" or has_ground_plate(plan):
         return p, ()
     pressure = load.force / (p.load_share * sum(c.area for c in plan.cells))
     needed = _RESERVE * pressure / taxel_stiffness(plan, p, pressure)
@@ -129,6 +130,8 @@ def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
 
 def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> LoadShare:
     """Gives taxels' share of a load in the middle of the ground, flat and half footholds, by plan and parameters."""
+    if has_ground_plate(plan):
+        return _plate_share(plan)
     springs = _Springs.of(plan, parameters, load.force / sum(c.area for c in plan.cells))
     x, y = springs.points.T
     low_x, low_y, high_x, high_y = plan.contact.bounds
@@ -141,6 +144,21 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
     beside = float((~springs.taxel).sum()) / max(1, int(springs.taxel.sum()))
     stiffness = max(0.0, 1.0 - flat) / (flat * beside) if flat > 0.0 and beside > 0.0 else 0.0
     return LoadShare(flat, shares[worst], worst, sunk, stiffness)
+
+
+def _plate_share(plan: ShoePlan) -> LoadShare:
+    low_x, low_y, high_x, high_y = plan.contact.bounds
+    middle_x = 0.5 * (low_x + high_x)
+    middle_y = 0.5 * (low_y + high_y)
+    boxes = {
+        "heel": shapely.box(low_x, low_y, middle_x, high_y),
+        "toes": shapely.box(middle_x, low_y, high_x, high_y),
+        "left": shapely.box(low_x, middle_y, high_x, high_y),
+        "right": shapely.box(low_x, low_y, high_x, middle_y),
+    }
+    shares = {name: plate_carries(plan, plan.contact & box) for name, box in boxes.items()}
+    worst = min(shares, key=lambda name: shares[name])
+    return LoadShare(plate_carries(plan, plan.contact), shares[worst], worst, 0.0, 0.0)
 
 
 @dataclass(frozen=True)

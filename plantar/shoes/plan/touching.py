@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.common.gravity import GRAVITY
 from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.ground_plate import has_ground_plate
 from plantar.shoes.plan.load_share import spring_forces, taxel_stiffness
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import LoadCase
@@ -94,6 +95,8 @@ def softened(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
     load, and a note.
     """
     p = parameters
+    if has_ground_plate(plan):
+        return p, ()
     if p.strengthen == "no" or p.pad_foam > 0.0 or p.pad_thickness <= 0.0 or check_touching(plan, load, p).holds():
         return p, ()
     pressure = load.force / (p.load_share * sum(c.area for c in plan.cells))

@@ -143,7 +143,7 @@ def test_a_pitch_that_leaves_no_rib_is_refused():
 @pytest.mark.parametrize("seed", [0, 3])
 def test_a_sheet_has_the_crossings_that_lie_inside_and_is_cut_there(seed):
     sole = outline(seed, notched=seed > 1)
-    cell = read_cell("sheet")
+    cell = Cell(shape="sheet", pitch_x=10.0, pitch_y=10.0, line_width=6.0, thickness=0.5, edge=2.0)
     fit = fit_cells(sole, cell, rib=RIB)
     felt = polygons(fit.cells)
     (recess,) = polygons(fit.pockets)
@@ -170,3 +170,22 @@ def test_a_sheet_with_too_many_lines_or_none_is_refused():
     coarse = Cell(shape="sheet", pitch_x=40.0, pitch_y=40.0, line_width=30.0, thickness=0.5)
     with pytest.raises(FootError, match="no crossing of electrodes of 30 mm lies inside"):
         fit_cells(shapely.box(0, 0, 60, 33), coarse, rib=RIB)
+
+
+def test_columns_of_a_hexagonal_sheet_zigzag_between_its_rows():
+    cell = read_cell("velostat")
+    fit = fit_cells(outline(3), cell, rib=RIB)
+    at, (rows, columns) = fit.crossings, fit.lines.T
+    assert len({tuple(line) for line in fit.lines.tolist()}) == len(at)
+    for row in np.unique(rows):  # straight rows, a pitch apart
+        assert np.ptp(at[rows == row, 1]) < 1e-3
+        apart = np.diff(np.sort(at[rows == row, 0])) / cell.pitch_x
+        np.testing.assert_allclose(apart, apart.round(), atol=1e-3)
+    for column in np.unique(columns):  # a column's next taxel is half a pitch to the side
+        x = at[columns == column, 0]
+        assert np.ptp(x) < 0.5 * cell.pitch_x + 2e-3
+    felt = polygons(fit.cells)
+    assert shapely.union_all(felt, grid_size=1e-6).area == pytest.approx(sum(c.area for c in felt), rel=1e-4)
+    whole = [c for c, share in zip(felt, fit.shares, strict=True) if share > 1.0 - 1e-6]
+    assert {len(c.exterior.coords) for c in whole} == {7}
+    assert whole[0].area == pytest.approx(cell.pitch_x * cell.pitch_y, rel=1e-3)

@@ -91,7 +91,7 @@ def test_the_board_has_the_ids_and_places_of_the_layout(exported, side):
 
 def test_a_sheet_has_a_line_for_each_row_and_column():
     foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
-    shoe = build_insole(foot, 6.0, cell=read_cell("sheet"), layout_only=True).shoes[0]
+    shoe = build_insole(foot, 6.0, cell=read_cell("velostat"), layout_only=True).shoes[0]
     rows, columns = shoe.plan.sheet_lines
     nets = board_nets(shoe)
     assert len(nets) == rows + columns

@@ -85,9 +85,8 @@ def test_taxels_in_a_line_see_nothing_across_it():
     assert not seen.holds
 
 
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("length", [0.065, 0.08, 0.12, 0.24])
-def test_cells_are_made_smaller_until_both_directions_are_seen(length):
+@pytest.mark.parametrize("length", [0.12, 0.24])
+def test_cells_reach_farther_until_both_directions_are_seen(length):
     foot = foot_from_dimensions("a", length=length, width=0.5 * length, corner_radius=0.005)
     seen = observability(build_shoe(foot, layout_only=True).shoes[0].plan)
     assert seen.holds
@@ -95,5 +94,7 @@ def test_cells_are_made_smaller_until_both_directions_are_seen(length):
 
 
 def test_a_foot_on_which_no_cells_see_it_is_refused():
-    with pytest.raises(FootError, match="no cells of 100 to 691"):
-        build_shoe(foot_from_dimensions("a", length=0.08, width=0.018), layout_only=True)
+    with pytest.raises(
+        FootError, match="do not see the center of pressure along and across this sole; allowed: --cell auto"
+    ):
+        build_shoe(foot_from_dimensions("a", length=0.065, width=0.03), layout_only=True)
