@@ -79,8 +79,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "plantar.shoes": (
         *("units", "order", "processes", "materials", "dimensions", "parameters", "cells", "cad_kernel"),
-        *("geometry", "foot", "fit", "plan", "solid", "build", "insole", "checks", "papers", "coupon"),
-        *("ordered", "found_foot"),
+        *("geometry", "foot", "fit", "plan", "solid", "build", "insole", "checks", "wiring", "papers"),
+        *("coupon", "cell_choice", "ordered", "found_foot"),
     ),
 }
 """The rooms of a package (folders, and files beside them) in their order: a room imports only those before it."""

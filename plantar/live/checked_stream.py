@@ -289,7 +289,7 @@ def open_live(
     Example:
         >>> open_live("hearsay")
         Traceback (most recent call last):
-        plantar.errors.InputError: unknown live source 'hearsay'; allowed: file, lines, replay, serial, udp
+        plantar.errors.InputError: unknown live source 'hearsay'; allowed: file, lines, packets, replay, serial, udp
     """
     stream = opened_source(text, layout)
     if kind is None:

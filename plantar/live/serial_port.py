@@ -19,18 +19,23 @@ _MOST = 1 << 16  # bytes at a time
 
 
 def _open(address: str, layout: SoleLayout | None) -> LiveStream:
-    path, _, rate = address.partition("@")
-    if not path or not (rate.isdecimal() or not rate):
-        raise InputError(f"serial port {address!r}; allowed: serial:DEVICE, or serial:DEVICE@{_BAUD}")
-    baud = int(rate or _BAUD)
+    path, baud = device_and_rate(address, "serial")
     soles = soles_of(layout, address)
-    port = _opened(path, baud)
-    arrivals = _arrivals(path, baud, port, lambda chunks: arrivals_of(chunks, soles))
+    port = opened_port(path, baud)
+    arrivals = port_arrivals(path, baud, port, lambda chunks: arrivals_of(chunks, soles))
     next(arrivals)
     return LiveStream(soles, arrivals)
 
 
-def _opened(path: str, baud: int) -> int:
+def device_and_rate(address: str, source: str) -> tuple[str, int]:
+    """Returns device and baud of an `address` of a named `source`; InputError if it is none."""
+    path, _, rate = address.partition("@")
+    if not path or not (rate.isdecimal() or not rate):
+        raise InputError(f"serial port {address!r}; allowed: {source}:DEVICE, or {source}:DEVICE@{_BAUD}")
+    return path, int(rate or _BAUD)
+
+
+def opened_port(path: str, baud: int) -> int:
     """File descriptor of a port that passes bytes on as they are; InputError for a rate that it does not have."""
     try:
         termios: Any = import_module("termios")
@@ -55,7 +60,8 @@ def _opened(path: str, baud: int) -> int:
     return port
 
 
-def _arrivals(path: str, baud: int, port: int, arrivals: Any) -> Iterator[Arrival]:
+def port_arrivals(path: str, baud: int, port: int, arrivals: Any) -> Iterator[Arrival]:
+    """Yields what `arrivals` makes of the bytes of an opened port, opened again when it is lost; first None."""
     try:
         yield None  # begun here, so that closing it closes the port
     except GeneratorExit:
@@ -73,7 +79,7 @@ def _arrivals(path: str, baud: int, port: int, arrivals: Any) -> Iterator[Arriva
             time.sleep(QUIET)
             yield None
             with suppress(OSError, InputError):
-                found = _opened(path, baud)
+                found = opened_port(path, baud)
         port = found
 
 

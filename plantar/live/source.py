@@ -54,8 +54,8 @@ def live_sources() -> dict[str, LiveSource]:
     """All sources by name; InputError if an entry point is none.
 
     Example:
-        >>> list(live_sources())[:5]
-        ['file', 'lines', 'replay', 'serial', 'udp']
+        >>> list(live_sources())[:6]
+        ['file', 'lines', 'packets', 'replay', 'serial', 'udp']
     """
     modules = (import_module(f"plantar.live.{module.name}") for module in iter_modules([str(Path(__file__).parent)]))
     found = {s.name: s for module in modules if isinstance(s := getattr(module, "SOURCE", None), LiveSource)}

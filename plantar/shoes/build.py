@@ -24,7 +24,7 @@ from plantar.shoes.geometry.outline import CORNER
 from plantar.shoes.order import FootSource
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step, mirrored_step
-from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
+from plantar.shoes.plan.cell_room import cell_parameters, led_parameters, refuse_too_many
 from plantar.shoes.plan.cop_budget import CopBudget, check_cop_budget
 from plantar.shoes.plan.ground_plate import plated
 from plantar.shoes.plan.insole_plan import fit_insole, insole_foot, insole_parameters, plan_insole
@@ -187,6 +187,7 @@ def build_shoe(
     p, plate = plated(left, load, p)
     p, soft = softened(left, load, p)
     p, lowered = relieved(left, load, p)
+    refuse_too_many(left)
     changed = (*of_cell, *low, *chosen, *fit.notes, *gentle, *raised, *led, *plate, *soft, *lowered, *left.notes)
     notes = (*foot.notes, *changed, *_blind_note(left, fit))
     if load.source.startswith("estimated"):
@@ -363,6 +364,7 @@ def build_insole(
     report(0.0, "fitting the taxels to the sole")
     fit = fit_insole(foot, p, cell_area=cell_area, fine=rim == "fine", cell=cell)
     left = plan_insole(foot, fit, p, name=name)
+    refuse_too_many(left)
     load = load_case(foot, p)
     p, led = led_parameters(left, p, deepen=False)
     p, lowered = relieved(left, load, p)

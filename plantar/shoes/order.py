@@ -30,6 +30,12 @@ class FootSource:
     unit: str | None = _option(None, "Unit of the file: m, cm, mm, in. Default: from its size.")
     up: str | None = _option(None, "Axis that points up: x, -x, y, -y, z, -z. Default: found.")
     forward: str | None = _option(None, "Axis to the toes: x, -x, y, -y. Default: found.")
+    shank: str | None = _option(
+        None,
+        "Where the shank passes above a foot without a robot's model, from its origin in mm; straps keep off it. "
+        "Default: assumed about the ankle.",
+        metavar="X,Y,DIAMETER",
+    )
     sole_z: float | None = _option(None, "Height of the sole plane in the mesh, in mm. Default: its lowest point.")
 
 

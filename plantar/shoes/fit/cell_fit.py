@@ -123,6 +123,8 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     edge = region.buffer(-cell.play - 0.5 * rib, join_style="mitre")
     sheet = tidy(edge) if not edge.is_empty else edge
     inside = sheet.buffer(-cell.edge, join_style="mitre")
+    if cell.circuit == "matrix":
+        inside = inside & _before_tail(sheet, cell)
     at, lines = _crossings(region, inside, cell)
     outline = _around_crossing(cell)
     cells = []
@@ -164,6 +166,13 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
         lines=np.array(kept_lines, dtype=np.int64),
         crossings=np.array(crossings),
     )
+
+
+def _before_tail(sheet: Any, cell: Cell) -> Any:
+    """A sheet without the strip at the heel in which its lines gather to the tail: half of them from each side."""
+    low_x, low_y, high_x, high_y = sheet.bounds
+    lines = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y + 1.0
+    return shapely.box(low_x + cell.edge + 0.5 * lines * cell.tail_pitch, low_y, high_x, high_y)
 
 
 def _shifted(cell: Cell) -> bool:

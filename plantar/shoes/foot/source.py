@@ -15,6 +15,7 @@ from plantar.shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
 from plantar.shoes.foot.mesh_file import MESH_FORMATS
 from plantar.shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
 from plantar.shoes.foot.robot_model import MODEL_FORMATS, BodyGeometry, read_foot_body, side_of_name
+from plantar.shoes.foot.shank import shank_links, stated_shank
 from plantar.shoes.order import FootSource
 
 _ALLOWED = {
@@ -23,6 +24,8 @@ _ALLOWED = {
     "up": ("x", "-x", "y", "-y", "z", "-z"),
     "forward": ("x", "-x", "y", "-y"),
 }
+
+_SHANK_TOP = 60.0  # mm up to which a stated shank does not lean
 
 _ASSUMED = "taken to be a left foot: no name shows the side (or give --mesh-side right)"
 
@@ -53,11 +56,25 @@ def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None
             if getattr(source, name) is not None:
                 given = "--robot" if source.robot is not None else "--dimensions"
                 raise InputError(f"--{name.replace('_', '-')} is for a file of the foot; {given} needs none")
+    taxels = None
     if source.robot is not None:
-        return foot_of_robot(source.robot)
-    if source.dimensions is not None:
-        return _box_foot(source.dimensions), None
-    return _foot_of_file(cast(Path, source.file), source, sole_band), None
+        foot, taxels = foot_of_robot(source.robot)
+    elif source.dimensions is not None:
+        foot = _box_foot(source.dimensions)
+    else:
+        foot = _foot_of_file(cast(Path, source.file), source, sole_band)
+    return _with_shank(foot, source.shank), taxels
+
+
+def _with_shank(foot: Foot, text: str | None) -> Foot:
+    """A foot with a stated shank, from above the sole on."""
+    if text is None:
+        return foot
+    shank = stated_shank(text)
+    if foot.links is not None:
+        raise InputError("--shank is for a foot alone; the robot's model shows where its links pass")
+    links = shank_links(shank, shank, min(foot.height, _SHANK_TOP))
+    return replace(foot, links=links, notes=(*foot.notes, f"the shank passes where --shank states it: {text}"))
 
 
 def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:

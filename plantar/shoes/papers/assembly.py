@@ -18,6 +18,7 @@ from plantar.shoes.papers.bill import WINDOW, Part
 from plantar.shoes.papers.picture import rendered_png
 from plantar.shoes.plan.wiring import channel_lines, length_of, wire_lines
 from plantar.shoes.solid.pad import mould_surface, pad_surface, prism_surface, taxel_surfaces
+from plantar.shoes.wiring.wired_shoe import WiredShoe
 
 Array = NDArray[np.float64]
 Bodies = list[tuple[Array, tuple[float, float, float]]]
@@ -44,13 +45,18 @@ code { overflow-wrap: anywhere; }
 """
 
 
-def assembly_page(build: ShoeBuild, checks: Mapping[str, ShoeCheck], bills: Mapping[str, Sequence[Part]]) -> str:
-    """Gives HTML page of a build with solids, checks and bills by side, without network."""
+def assembly_page(
+    build: ShoeBuild,
+    checks: Mapping[str, ShoeCheck],
+    bills: Mapping[str, Sequence[Part]],
+    wired: Mapping[str, WiredShoe] | None = None,
+) -> str:
+    """Gives HTML page of a build with solids, checks, bills and wiring by side, without network."""
     shoe = build.shoes[0]
     sides = " and ".join(s.side for s in build.shoes)
     kind = build.kind if len(build.shoes) == 1 else f"{build.kind}s"
     views = _Views(shoe, build)
-    steps = list(_steps(shoe, build, checks, bills, views))
+    steps = list(_steps(shoe, build, checks, bills, views, (wired or {}).get(shoe.side)))
     sections = [Section("parts", "Parts", "".join(_parts(side, bill) for side, bill in bills.items()))]
     sections += [Section(f"step{n}", f"{n}. {name}", content) for n, (name, content) in enumerate(steps, start=1)]
     mirrored = ""
@@ -68,10 +74,13 @@ def _parts(side: str, bill: Sequence[Part]) -> str:
     rows = []
     for part in bill:
         mass = "–" if part.mass_g is None else f"{part.mass_g:.1f}"
-        cells = (str(part.quantity), *map(_words, (part.material, part.size)), mass, _words(part.note))
+        order = _words(part.order)
+        if part.address:
+            order = f'<a href="{html.escape(part.address, quote=True)}">{order}</a>'
+        cells = (str(part.quantity), *map(_words, (part.material, part.size)), mass, _words(part.note), order)
         rows.append(row(_words(part.part), cells))
-    head = ("Part", "Number", "Material", "Size", "Mass in g", "Note")
-    return table(f"parts, {side}", f"Of the {side} one", head, rows, words=("Material", "Size", "Note"))
+    head = ("Part", "Number", "Material", "Size", "Mass in g", "Note", "To order")
+    return table(f"parts, {side}", f"Of the {side} one", head, rows, words=("Material", "Size", "Note", "To order"))
 
 
 def _step(paragraphs: Sequence[str], view: bytes, caption: str, more: str = "") -> str:
@@ -80,15 +89,19 @@ def _step(paragraphs: Sequence[str], view: bytes, caption: str, more: str = "") 
 
 
 def _steps(
-    shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], bills: Mapping[str, Sequence[Part]], views: _Views
-) -> Iterator[tuple[str, str]]:
+    shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], bills: Mapping[str, Sequence[Part]], views: _Views,
+    wired: WiredShoe | None,
+) -> Iterator[tuple[str, str]]:  # fmt: skip
     yield "Try the fit with a coupon", _coupon(shoe, build, views)
     yield "Print", _print(shoe, build, checks, views)
     if build.parameters.pad_thickness > 0.0:
         yield "Make the pad", _pad(shoe, build, checks, views)
     yield "Put the taxels into their pockets", _taxels(shoe, build, views)
-    if shoe.plan.connectors:
+    if wired is not None:
+        yield "Wire them", _harness(shoe, wired)
+    elif shoe.plan.connectors:
         yield "Wire them", _wires(shoe, build, views)
+    if shoe.plan.connectors:
         yield "Lead the cable out", _exit(shoe, build, views)
     if build.parameters.pad_thickness > 0.0:
         yield "Glue the pad on", _glue(shoe, build, views)
@@ -217,6 +230,31 @@ def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
         views.of_cells(),
         f"From below: {count} taxels before their pockets",
     )
+
+
+def _harness(shoe: Shoe, wired: WiredShoe) -> str:
+    """Leads as they are soldered, or the lines of a sheet's tail, with the drawing of the same nets."""
+    wiring = wired.wiring
+    shown = figure(wired.drawing, f"Wiring of the {shoe.side} one, seen from the ground")
+    text = {
+        "divider": "Each FSR has two leads, soldered to the tabs of its tail, never to the film: to 3V3, and to its "
+        "channel of a multiplexer, from which a resistor of 1 kOhm leads to ground.",
+        "bridge": "Each load cell's four leads go to its amplifier; DOUT of each has a pin of U1, all share PD_SCK.",
+        "matrix": f"Order the board by <code>gerbers_{shoe.side}.zip</code>. Lay the sheet on its combs, front to the "
+        "ground, glue them at the rim alone, and put the tail, contacts to the contacts, into J1 at pin 1.",
+    }[wiring.circuit]
+    rows = [
+        row(f"T{lead.cell}", (lead.net, str(lead.start), str(lead.end), lead.colour, str(lead.length)))
+        for lead in wiring.leads
+    ]
+    rows += [row(f"J1.{n}", (net or "spare", "FB1", f"J1.{n}", "", "")) for n, net in enumerate(wiring.tail, start=1)]
+    head = ("Cell or line", "Net", "from", "to", "Colour", "Length")
+    leads = table("harness", "What is joined to what", head, rows, words=("Net", "from", "to", "Colour"))
+    about = (
+        f"<p>{text} <code>nets.csv</code> has every pin of every net, <code>harness.csv</code> this table of both "
+        f"sides, and <code>firmware_{shoe.side}</code> the program of U1.</p>"
+    )
+    return about + shown + leads
 
 
 def _wires(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:

@@ -12,13 +12,14 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import tail_lines
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.wiring import channel_lines, length_of, wire_lines
+from plantar.shoes.wiring.nets import Wiring
 
 WINDOW = 5.0  # diameter in mm of a hole in the pad through which a taxel's infrared sensor looks
 
 
 @dataclass(frozen=True)
 class Part:
-    """Bill line for one shoe; mass in g of all its parts, or None."""
+    """Bill line for one shoe; mass in g of all its parts, or None; `order`: what to ask a shop or workshop for."""
 
     part: str
     quantity: int
@@ -26,10 +27,12 @@ class Part:
     size: str
     mass_g: float | None
     note: str
+    order: str = ""
+    address: str = ""
 
 
-def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
-    """Gives parts of a build's shoe with weights."""
+def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights, wiring: Wiring | None = None) -> list[Part]:
+    """Gives parts of a build's shoe with weights and wiring."""
     p = build.parameters
     plan = shoe.plan
     side = shoe.side
@@ -41,6 +44,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
         Part(
             f"{build.kind}, {side}", 1, p.material, size, weights.printed,
             f"printed from {build.kind}_{side}.stl, .3mf or .step",
+            f"print of {build.kind}_{side}.step in {p.material}, {p.made_by.name}",
         )
     ]  # fmt: skip
     if p.pad_thickness > 0.0:
@@ -49,6 +53,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
                 f"pad, {side}", 1, p.pad_material,
                 f"{outline} x {p.pad_thickness + p.pad_rim_height:g} mm", weights.pad,
                 f"cut or cast to pad_{side}.stl, {_window(plan)}; glued to the taxels, replaced when worn",
+                _pad_order(side, p),
             )
         )  # fmt: skip
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())
@@ -59,23 +64,43 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     size = f"{build.fit.cell_area:g} mm2 x {p.taxel_protrusion + p.pocket_depth:g} mm, {base}"
     cell = plan.cell
     if cell is None:
-        parts.append(Part("taxel", len(shoe.layout), "skin", size, weights.skin, note))
+        order = "no shop sells the papers' skin; cells that can be bought: --cell auto"
+        parts.append(Part("taxel", len(shoe.layout), "skin", size, weights.skin, note, order))
     elif plan.lines is not None:
         rows, columns = plan.sheet_lines
         note = f"{rows} rows x {columns} columns, tail of {tail_lines(plan)} lines; outline in cells_{side}.dxf"
-        parts.append(Part(f"sheet {cell.label}", 1, "sensor sheet", f"{cell.thickness:g} mm thick", weights.skin, note))
+        size = f"{cell.thickness:g} mm thick, cut to layer OUTLINE of cells_{side}.dxf"
+        bought = (f"{cell.maker} {cell.part}".strip(), cell.data_sheet)
+        parts.append(Part(f"sheet {cell.label}", 1, "sensor sheet", size, weights.skin, note, *bought))
     else:
         across = " x ".join(f"{v:g}" for v in dict.fromkeys(np.round(cell.body, 2).tolist()))
         size = f"{across} mm" + (f" x {cell.thickness:g} mm" if cell.thickness else "")
-        parts.append(Part(f"cell {cell.label}", len(shoe.layout), cell.shape, size, weights.skin, note))
+        bought = (f"{cell.maker} {cell.part}".strip(), cell.data_sheet)
+        parts.append(Part(f"cell {cell.label}", len(shoe.layout), cell.shape, size, weights.skin, note, *bought))
     if plan.heel.board:
         size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
-        parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))
-    if plan.connectors:
+        note = "slides into the rails behind the heel"
+        order = f"prototyping board, FR4, {p.board_thickness:g} mm thick, cut to size"
+        parts.append(Part("connection board", 1, "FR4", size, weights.board, note, order))
+    if wiring is not None:
+        parts += [
+            Part(b.what, b.quantity, b.references, "-", None, "read-out", f"{b.maker} {b.part}", b.address)
+            for b in wiring.bought
+        ]
+    elif plan.connectors:
         length = f"{math.ceil(_cable(plan, p))} mm or longer"
-        parts.append(Part("cable", len(plan.connectors), "flat", length, None, "patch to heel, in the channel"))
+        order = f"flat cable, {length}, as the laboratory's cells take it"
+        parts.append(Part("cable", len(plan.connectors), "flat", length, None, "patch to heel, in the channel", order))
     parts += _holding(build, high_y - low_y)
     return parts
+
+
+def _pad_order(side: str, p: ShoeParameters) -> str:
+    if p.pad_kind == "plate":
+        return f"print of pad_{side}.stl in {p.material}"
+    if p.pad_foam > 0.0:
+        return f"{p.pad_material}, sheets of {p.pad_thickness:g} mm and {p.pad_rim_height:g} mm"
+    return f"two-part silicone of {p.pad_hardness:g} Shore A, and mould_{side}.stl printed"
 
 
 def _window(plan: ShoePlan) -> str:
@@ -104,13 +129,25 @@ def _holding(build: ShoeBuild, width: float) -> list[Part]:
     if retention.kind == "straps":
         over = 2.5 * (width + 2.0 * min(build.foot.height, 80.0))
         size = f"{retention.width:g} x {p.strap_thickness:g} mm, {10 * math.ceil(over / 10):g} mm long"
-        return [Part("strap", retention.straps, "hook and loop", size, None, "over the instep, through the lugs")]
+        note = "over the instep, through the lugs"
+        order = f"hook-and-loop strap, double-sided, {retention.width:g} mm wide, by the metre"
+        return [Part("strap", retention.straps, "hook and loop", size, None, note, order)]
     if retention.kind == "screws":
         size = f"M{retention.width:g} x {p.rim_thickness + 2.0 * retention.width:.0f} mm, soft tip"
         count = len(retention.places)
         return [
-            Part("set screw", count, "steel", size, None, "through the wall, clamps the foot's sides"),
-            Part("nut", count, "steel", f"M{retention.width:g}", None, "in the slot of the boss"),
+            Part(
+                "set screw", count, "steel", size, None, "through the wall, clamps the foot's sides", f"DIN 913 {size}"
+            ),
+            Part(
+                "nut",
+                count,
+                "steel",
+                f"M{retention.width:g}",
+                None,
+                "in the slot of the boss",
+                f"ISO 4032 M{retention.width:g}",
+            ),
         ]
     return []
 

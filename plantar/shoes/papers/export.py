@@ -4,7 +4,7 @@ import json
 import math
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -26,10 +26,12 @@ from plantar.shoes.papers.drawing import draw_shoe
 from plantar.shoes.papers.mesh_files import NamedBody, write_3mf, write_assembly, write_stl
 from plantar.shoes.papers.picture import draw_picture
 from plantar.shoes.papers.step_assembly import assembly_parts
-from plantar.shoes.papers.wiring_files import board_text, cells_dxf, net_list_text, wiring_text
+from plantar.shoes.papers.wiring_files import cells_dxf, wiring_text
 from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
 from plantar.shoes.solid.step_model import StepSolid, is_valid, read_step, write_step
 from plantar.shoes.units import to_m
+from plantar.shoes.wiring.lists import harness_text, nets_text
+from plantar.shoes.wiring.wired_shoe import WiredShoe, board_checks, wire_shoe, write_wired
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,7 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
+def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None, wired: WiredShoe | None) -> str:
     plan = shoe.plan
     ids = shoe.layout.ids.tolist()
     extra: dict[str, Any] = {
@@ -142,6 +144,8 @@ def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
         "cable_route": [[ids[i], ids[j]] for i, j in plan.route],
         "cell_shares": build.fit.shares.round(6).tolist(),
     }
+    if wired is not None:
+        extra |= {"circuit": wired.wiring.circuit, "channels": list(wired.wiring.channels)}
     if plan.lines is not None and plan.crossings is not None:
         extra |= {"rows": plan.lines[:, 0].tolist(), "columns": plan.lines[:, 1].tolist()}
         extra |= {"crossings": to_m(plan.crossings).round(6).tolist()}
@@ -169,6 +173,7 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
     weights: dict[str, Weights] = {}
     bills: dict[str, list[Part]] = {}
     files: list[str] = []
+    wired: dict[str, WiredShoe] = {}
     for i, shoe in enumerate(build.shoes):
         side = shoe.side
         count = len(build.shoes)
@@ -176,19 +181,33 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
             report_progress(i / count, f"writing the {side} shoe")
             surface, step, names, parts = _write_solids(shoe, build, target)
             report_progress((i + 0.4) / count, f"checking the {side} shoe")
-            checks[side] = check_shoe(shoe, build, surface=surface, step=step, parts=parts)
+            found = check_shoe(shoe, build, surface=surface, step=step, parts=parts)
+            own = wire_shoe(shoe, build.parameters)
+            checks[side] = replace(found, checks=(*found.checks, *board_checks(own, shoe, build.parameters)))
             weights[side] = checks[side].weights
-            bills[side] = bill_of_parts(shoe, build, weights[side])
-            names += _write_for_wiring(shoe, build, target)
+            bills[side] = bill_of_parts(shoe, build, weights[side], None if own is None else own.wiring)
+            names += _write_for_cells(shoe, build, target)
+            if own is not None:
+                wired[side] = own
+                names += write_wired(own, shoe, target)
             report_progress((i + 0.6) / count, f"drawing the {side} shoe")
             names += _draw(shoe, build, surface, target)
             files += names
-        files.append(write_text(target / f"layout_{side}.json", _layout_text(shoe, build, weights.get(side))).name)
+        files.append(
+            write_text(
+                target / f"layout_{side}.json", _layout_text(shoe, build, weights.get(side), wired.get(side))
+            ).name
+        )
     if checks:
         write_text(target / "parts.csv", bill_text(bills))
         write_text(target / "wiring.csv", wiring_text(build.shoes, build.parameters))
-        write_text(target / "assembly.html", assembly_page(build, checks, bills))
+        write_text(target / "assembly.html", assembly_page(build, checks, bills, wired))
         files += ["parts.csv", "wiring.csv", "assembly.html", "check.json"]
+    if wired:
+        wirings = {side: own.wiring for side, own in wired.items()}
+        write_text(target / "nets.csv", nets_text(wirings))
+        write_text(target / "harness.csv", harness_text(wirings))
+        files += ["nets.csv", "harness.csv"]
     plans: dict[str, tuple[Check, ...]] = (
         {} if checks else {shoe.side: check_plan(shoe.plan, build) for shoe in build.shoes}
     )
@@ -225,11 +244,11 @@ def _write_solids(
     return read_mesh(target / names[0])[0], read_step(target / names[1]), names, valid
 
 
-def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
+def _write_for_cells(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
     assert shoe.surface is not None
     side = shoe.side
     p = build.parameters
-    names = [f"cells_{side}.dxf", f"assembly_{side}.3mf", f"board_{side}.kicad_pcb", f"board_{side}.net"]
+    names = [f"cells_{side}.dxf", f"assembly_{side}.3mf"]
     bodies = [
         NamedBody(f"{build.kind} {side}", p.material, "#4C72B0", shoe.surface),
         *(
@@ -240,8 +259,6 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
     if p.pad_thickness > 0.0:
         bodies.append(NamedBody("pad", p.pad_material, "#333333", pad_surface(shoe.plan, p)))
     write_text(target / names[0], cells_dxf(shoe, build))
-    write_text(target / names[2], board_text(shoe, p))
-    write_text(target / names[3], net_list_text(shoe))
     write_assembly(bodies, f"{shoe.layout.name} {side}", target / names[1])
     return names
 

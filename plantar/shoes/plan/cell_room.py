@@ -11,6 +11,13 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.heel import HOLE_OFF
 from plantar.shoes.plan.shoe_plan import ShoePlan
 
+CHANNELS = 16  # of a multiplexer
+MULTIPLEXERS = 3  # that the read-out has, an analog input each
+ROWS_MOST = 16  # of a sheet, which one multiplexer reads
+COLUMNS_MOST = 32  # which the other two do
+BRIDGES_MOST = 12  # amplifiers of load cells
+TAIL_MOST = 50  # lines of the adapter for a sheet's tail
+
 _TAIL_PLAY = 0.5  # mm on either side of a sheet's tail
 _DEEPEST = 8.0  # mm: of a pocket that is deepened for leads
 
@@ -138,3 +145,22 @@ def lead_rooms(plan: ShoePlan, parameters: ShoeParameters) -> tuple[LeadRoom, ..
         beside = (min(cell.body) + 2.0 * cell.play - min(cell.active_extent)) * (p.pocket_depth - cell.thickness)
         rooms.append(LeadRoom("fullest pocket", each * float(patches.max()), beside))
     return tuple(rooms)
+
+
+def refuse_too_many(plan: ShoePlan) -> None:
+    """FootError where one microcontroller board does not read all cells of a plan."""
+    cell = plan.cell
+    if cell is None:
+        return
+    if cell.circuit == "matrix":
+        rows, columns = plan.sheet_lines
+        if rows > ROWS_MOST or columns > COLUMNS_MOST or rows + columns + 1 > TAIL_MOST:
+            raise FootError(
+                f"cell {cell.label}: {rows} rows and {columns} columns; one board reads {ROWS_MOST} rows and "
+                f"{COLUMNS_MOST} columns, {TAIL_MOST - 1} together: use a larger pitch"
+            )
+    most = {"divider": CHANNELS * MULTIPLEXERS, "bridge": BRIDGES_MOST}.get(cell.circuit)
+    if most is not None and len(plan.cells) > most:
+        raise FootError(
+            f"cell {cell.label}: {len(plan.cells)} of them; one board reads {most}: use larger cells or a sheet"
+        )

@@ -4,9 +4,7 @@ Without a robot model a shank is assumed about the ankle at the origin, from the
 of the foot, leaning by 20 degrees every way.
 """
 
-import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import shapely
@@ -14,19 +12,16 @@ from numpy.typing import NDArray
 
 from plantar.geometry.polygon import convex_hull
 from plantar.shoes.foot.foot import Foot
+from plantar.shoes.foot.shank import shank_links
 from plantar.shoes.geometry.surface import convex_outline, surface_points
 
 _SPACING = 2.0  # mm between points on the foot
-_GRID = 4.0  # mm between points of a shank that is not known
 _ROOM = 2.0  # mm between a link and what is printed or strapped
 _SHANK = 0.1  # of the foot's length: radius of a shank that is not known
 # of length and height: what is shorter on top of a foot is what its shank stands on
 _BLOCK = 0.6
 _UPPER = 0.1
 _THIN = 0.05  # height over length: up to it the upper end of a plate that is tilted a little is no shank
-# of a shank that is not known
-_LEANS = math.tan(math.radians(20.0))
-_TALL = 60.0
 
 Array = NDArray[np.float64]
 
@@ -44,7 +39,11 @@ class KeepOut:
     @property
     def note(self) -> str:
         """Source of the links."""
-        return "" if self.known else "the shank is taken to stand on the ankle: no robot's model shows where it passes"
+        return (
+            ""
+            if self.known
+            else "the shank is taken to stand on the ankle: no robot's model shows where it passes (or give --shank)"
+        )
 
     def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
         """Gives number of points within 2 mm of a box with corners low and high (3,)."""
@@ -92,15 +91,4 @@ def keep_out(foot: Foot) -> KeepOut:
         if np.ptp(upper[:, 0]) < _BLOCK * length and block.geom_type == "Polygon":
             shank = block
     # A link may reach down beside the foot's own ankle: what is above the sole there is not taken to be free.
-    grid = [_points_in(ankle, height) for height in np.arange(_GRID, top, _GRID).tolist()]
-    leaning = np.arange(0.0, _TALL, _GRID).tolist()
-    grid += [_points_in(shank.buffer(height * _LEANS), top + height) for height in leaning]
-    return KeepOut(np.concatenate(grid), surface, False)
-
-
-def _points_in(outline: Any, height: float) -> Array:
-    """Points (n, 3) on a grid in a shapely outline, at a height."""
-    x, y = (np.arange(outline.bounds[i], outline.bounds[i + 2] + _GRID, _GRID) for i in (0, 1))
-    xy = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    kept = xy[shapely.contains_xy(outline, xy[:, 0], xy[:, 1])]
-    return np.column_stack([kept, np.full(len(kept), height)])
+    return KeepOut(shank_links(ankle, shank, top), surface, False)

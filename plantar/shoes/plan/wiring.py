@@ -110,6 +110,33 @@ def length_of(line: NDArray[np.float64]) -> float:
     return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
+_SLACK = 200.0  # mm of each lead beyond the heel's board, to the read-out on the shank
+
+
+def lead_lengths(plan: ShoePlan, parameters: ShoeParameters) -> list[float]:
+    """Gives length in mm of each cell's own lead, by plan and parameters: by the route to its patch's connector, by the
+    channel, up behind the heel, and on to the read-out.
+    """
+    wires = wire_lines(plan)
+    channels = channel_lines(plan, parameters)
+    rise = parameters.thickness - parameters.bottom + _SLACK
+    lengths = dict[int, float]()
+    for connector, line in zip(plan.connectors, channels, strict=True):
+        # a later patch's channel ends at a cell of an earlier one
+        ends = {i: math.dist(wire_end(plan, i), line[-1]) for i in lengths}
+        before = min(ends, key=lambda i: ends[i], default=None)
+        lengths[connector] = length_of(line) + (rise if before is None else lengths[before])
+        for i, j in plan.route:  # a tree, from the connectors outwards
+            if i in lengths and j not in lengths:
+                lengths[j] = lengths[i] + length_of(wires[j])
+    return [lengths[k] for k in range(len(plan.cells))]
+
+
+def wire_end(plan: ShoePlan, cell: int) -> NDArray[np.float64]:
+    """Middle (2,) in mm of a plan's cell."""
+    return np.array(plan.cells[cell].centroid.coords[0])
+
+
 def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
     """Gives shapely cable hole behind the wall, by plan and parameters; empty without a board."""
     if not plan.heel.board:

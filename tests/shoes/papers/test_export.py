@@ -25,7 +25,7 @@ from plantar.shoes.solid.step_model import read_step
 def test_every_file_is_there_and_says_the_same(exported):
     report, folder = exported
     assert sorted(report.files) == sorted(f.name for f in folder.iterdir())
-    assert len(report.files) == 2 * 14 + 4
+    assert len(report.files) == 2 * 12 + 4
     figures = json.loads((folder / "check.json").read_text())
     assert figures == json.loads(json.dumps(report.as_dict()))
     assert figures["holds"] is True

@@ -2,19 +2,14 @@
 
 import csv
 import json
-import re
 
 import numpy as np
 import pytest
 import shapely
 import trimesh
 
-from plantar.shoes import ShoeParameters, build_shoe, export_shoe, foot_from_dimensions
-from plantar.shoes.build import build_insole
-from plantar.shoes.cells.cell import read_cell
-from plantar.shoes.papers.wiring_files import board_nets, board_outlines, net_list_text
+from plantar.shoes import ShoeParameters, build_shoe, export_shoe
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline
-from plantar.shoes.units import to_mm
 
 
 def test_each_cell_is_wired_once_from_one_that_is(exported):
@@ -66,34 +61,3 @@ def test_cells_that_are_wired_by_themselves_have_no_ways_for_a_cable_in_any_file
     cut = trimesh.intersections.mesh_plane(mesh, [0, 0, 1], [0, 0, height])[..., :2]
     rings = shapely.polygonize([shapely.union_all(shapely.linestrings(cut), grid_size=1e-4)]).geoms
     assert len(rings) == len(shoe.layout) + 1  # the plate, and each pocket closed all round
-
-
-@pytest.mark.parametrize("side", ["left", "right"])
-def test_the_board_has_the_ids_and_places_of_the_layout(exported, side):
-    report, folder = exported
-    (shoe,) = (s for s in report.build.shoes if s.side == side)
-    board, nets = ((folder / f"board_{side}.{e}").read_text() for e in ("kicad_pcb", "net"))
-    for text in (board, nets):
-        assert text.count("(") == text.count(")")
-    places = re.findall(r'taxel" \(layer "F.Cu"\) \(at (\S+) (\S+)\)\n\(fp_text reference "T(\d+)"', board)
-    wanted = to_mm(shoe.layout.positions).round(3).tolist()
-    assert [(float(x), -float(y), int(k)) for x, y, k in places] == [
-        (x, y, k) for (x, y, _), k in zip(wanted, shoe.layout.ids.tolist(), strict=True)
-    ]
-    for k in shoe.layout.ids.tolist():
-        assert f'(name "TAXEL_{k}") (node (ref "T{k}") (pin "1")) (node (ref "J1")' in nets
-    openings = shapely.union_all([q.buffer(0.01) for q in shoe.plan.pockets])
-    outline = shapely.union_all(board_outlines(shoe, report.build.parameters))
-    assert outline.geom_type == "Polygon"  # one board
-    assert openings.area > outline.intersection(openings).area > 0.9 * openings.area
-    assert all(outline.covers(shapely.Point(x, y)) for x, y, _ in wanted)
-
-
-def test_a_sheet_has_a_line_for_each_row_and_column():
-    foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
-    shoe = build_insole(foot, 6.0, cell=read_cell("velostat"), layout_only=True).shoes[0]
-    rows, columns = shoe.plan.sheet_lines
-    nets = board_nets(shoe)
-    assert len(nets) == rows + columns
-    assert sum(len(parts) for parts in nets.values()) == 2 * len(shoe.layout)
-    assert net_list_text(shoe).count("(net (code") == rows + columns

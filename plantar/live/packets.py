@@ -1,0 +1,120 @@
+"""Packets of a sole's firmware (`plantar/shoes/firmware/sole.c`) on a serial port.
+
+Little endian: "PL", version 1, side, sequence (16 bits), time in us (32), number of taxels (16), a value each (16), and
+CRC-16/CCITT-FALSE of all before it. Values are counts until the layout's calibration makes newtons of them.
+"""
+
+import binascii
+import struct
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from plantar.common.sides import SIDES, Side
+from plantar.layouts.layout import SoleLayout
+from plantar.live.arrival import Arrival, Fault
+from plantar.live.line_reading import soles_of
+from plantar.live.serial_port import device_and_rate, opened_port, port_arrivals
+from plantar.live.source import LiveSource, LiveStream
+from plantar.sensing.reading import Reading
+
+_HEAD = struct.Struct("<2sBBHIH")
+_START = b"PL\x01"
+_WRAP = 1 << 32  # us
+
+
+def _open(address: str, layout: SoleLayout | None) -> LiveStream:
+    path, baud = device_and_rate(address, "packets")
+    soles = soles_of(layout, address)
+    port = opened_port(path, baud)
+    arrivals = port_arrivals(path, baud, port, lambda chunks: packets_of(chunks, soles))
+    next(arrivals)
+    return LiveStream(soles, arrivals)
+
+
+def packets_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Iterator[Arrival]:
+    """Yields readings of packets in bytes as they come, for some `soles`; an empty chunk is silence.
+
+    What is no packet is a fault "garbled", once for bytes that follow each other; packets that the sender counted and
+    that did not come are one "dropped".
+    """
+    rest = b""
+    skipped = 0
+    clocks = {side: _Clock() for side in soles}
+    for chunk in chunks:
+        if not chunk:
+            yield None
+            continue
+        rest += chunk
+        while True:
+            start = rest.find(_START)
+            if start < 0:
+                start = max(0, len(rest) - len(_START) + 1)
+                skipped += start
+                rest = rest[start:]
+                break
+            skipped += start
+            rest = rest[start:]
+            if len(rest) < _HEAD.size:
+                break
+            _, _, number, sequence, time, count = _HEAD.unpack_from(rest)
+            side = SIDES[number % len(SIDES)]
+            size = _HEAD.size + 2 * count
+            if number >= len(SIDES) or side not in soles or count != len(soles[side]):
+                # by its check sum a packet of another sole, else bytes that look like the beginning of one
+                known = len(rest) >= size + 2 and _checked(rest, size)
+                if known:
+                    wanted = ", ".join(f"{len(sole)} of the {one} sole" for one, sole in soles.items())
+                    yield Fault("garbled", f"a packet holds {count} values of side {number}; allowed: {wanted}")
+                step = size + 2 if known else 1
+                skipped += 0 if known else 1
+                rest = rest[step:]
+                continue
+            if len(rest) < size + 2:
+                break
+            if not _checked(rest, size):
+                skipped += 1
+                rest = rest[1:]
+                continue
+            if skipped:
+                yield Fault("garbled", f"{skipped} bytes are no packet, or one with a wrong check sum")
+                skipped = 0
+            missing = clocks[side].missing(sequence)
+            if missing:
+                yield Fault("dropped", f"{missing} packets of the {side} sole before number {sequence} did not come")
+            values = np.frombuffer(rest, "<u2", count, _HEAD.size).astype(np.float64)
+            yield side, Reading(clocks[side].seconds(time), values)
+            rest = rest[size + 2 :]
+    if rest or skipped:
+        yield Fault("cut", f"{len(rest) + skipped} bytes at the end are no whole packet")
+
+
+def _checked(packet: bytes, size: int) -> bool:
+    return binascii.crc_hqx(packet[:size], 0xFFFF) == int.from_bytes(packet[size : size + 2], "little")
+
+
+class _Clock:
+    """Sequence and time of a sender, whose counters wrap."""
+
+    def __init__(self) -> None:
+        self._sequence: int | None = None
+        self._time = 0
+        self._turns = 0
+
+    def missing(self, sequence: int) -> int:
+        """Packets that were counted since the last one and did not come; none after a restart."""
+        before = self._sequence
+        self._sequence = sequence
+        if before is None:
+            return 0
+        passed = (sequence - before - 1) % (1 << 16)
+        return passed if passed < 1 << 15 else 0
+
+    def seconds(self, time: int) -> float:
+        if self._time - time > _WRAP // 2:
+            self._turns += 1
+        self._time = time
+        return 1e-6 * (time + self._turns * _WRAP)
+
+
+SOURCE = LiveSource("packets", "Packets of a sole's firmware on a serial port: packets:DEVICE@BAUD", _open)

@@ -1,0 +1,1 @@
+"""Wiring of a shoe's cells: nets, harness, flexible board, read-out and its firmware."""

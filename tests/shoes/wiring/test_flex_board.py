@@ -1,0 +1,134 @@
+"""The flexible board: counted from its file by text and shapely, by KiCad where it is, and its Gerbers against it."""
+
+import io
+import re
+import shutil
+import subprocess
+import zipfile
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+
+from plantar.shoes import build_shoe, foot_from_dimensions
+from plantar.shoes.cells.cell import read_cell
+from plantar.shoes.checks.board_count import count_board
+from plantar.shoes.plan.wiring import hole_outline, pocket_outlines
+from plantar.shoes.wiring.flex_board import comb_shapes, flex_board
+from plantar.shoes.wiring.gerber_files import gerber_zip
+from plantar.shoes.wiring.grid_router import CLEARANCE, EDGE
+from plantar.shoes.wiring.kicad_board import kicad_text
+
+
+@pytest.fixture(scope="module")
+def boards(wired_builds):
+    build = wired_builds["velostat"]
+    return [
+        (shoe, build, board, kicad_text(board))
+        for shoe in build.shoes
+        for board in [flex_board(shoe, build.parameters)]
+    ]
+
+
+def _problems(shoe, build, text):
+    count = count_board(text)
+    wanted = {
+        f"T{k}": (f"R{r}", f"C{c}")
+        for k, (r, c) in zip(shoe.layout.ids.tolist(), shoe.plan.lines.tolist(), strict=True)
+    }
+    assert count.taxels == wanted
+    assert len(set(wanted.values())) == len(wanted)
+    assert count.open_nets == ()
+    assert count.clearance > CLEARANCE - 1e-3
+    assert count.hole > CLEARANCE
+    assert count.edge > EDGE - 1e-3
+    openings = shapely.union_all(
+        [*pocket_outlines(shoe.plan, build.parameters), hole_outline(shoe.plan, build.parameters)]
+    )
+    assert (count.outline & shoe.plan.contact).difference(openings.buffer(1e-3)).area < 0.5
+    return count
+
+
+def test_each_taxel_is_on_one_row_and_one_column_that_lead_to_the_tail(boards):
+    for shoe, build, board, text in boards:
+        count = _problems(shoe, build, text)
+        assert count.tail == board.tail
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("length", "width", "mass"), [(0.2, 0.083, 33.0), (0.224, 0.147, 47.0)])
+def test_larger_boards_hold_the_same(length, width, mass):
+    foot = foot_from_dimensions("a", length=length, width=width, corner_radius=0.02, sole_center=(0.02, 0.0), mass=mass)
+    build = build_shoe(foot, side="left", cell=read_cell("velostat"), layout_only=True)
+    _problems(build.shoes[0], build, kicad_text(flex_board(build.shoes[0], build.parameters)))
+
+
+def test_the_count_sees_what_is_broken(boards):
+    _, _, board, _ = boards[0]
+    cut = replace(board, pieces=tuple(p for p in board.pieces if p.net != "C1" or p.layer == 0))
+    assert "C1" in count_board(kicad_text(cut)).open_nets
+    piece = next(p for p in board.pieces if p.net == "R1" and np.hypot(*(p.ends[1] - p.ends[0])) > 5.0)
+    close = replace(board, pieces=(*board.pieces, replace(piece, net="R2", ends=piece.ends + np.array([0.0, -0.3]))))
+    assert count_board(kicad_text(close)).clearance < CLEARANCE
+    wide = replace(board, outline=board.outline.buffer(-3.0))
+    assert count_board(kicad_text(wide)).edge < EDGE
+
+
+def test_combs_leave_a_gap_all_along(boards):
+    row, column = comb_shapes(8.0)
+    assert row.distance(column) == pytest.approx(0.3)
+    assert row.union(column).bounds == pytest.approx((-3.85, -3.85, 3.85, 3.85), abs=0.3)
+
+
+def _drc(path):
+    """What KiCad's own rules find: by kicad-cli from 8 on, or the library of 6 and 7; None without."""
+    if shutil.which("kicad-cli"):
+        out = path.with_suffix(".rpt")
+        done = subprocess.run(["kicad-cli", "pcb", "drc", "-o", str(out), str(path)], capture_output=True, check=False)
+        return out.read_text() if done.returncode == 0 else None
+    code = f"import pcbnew; b = pcbnew.LoadBoard({str(path)!r}); "
+    code += f"pcbnew.WriteDRCReport(b, {str(path) + '.rpt'!r}, pcbnew.EDA_UNITS_MILLIMETRES, True)"
+    done = subprocess.run(["/usr/bin/python3", "-c", code], capture_output=True, check=False, cwd=path.parent)
+    return (path.parent / f"{path.name}.rpt").read_text() if done.returncode == 0 else None
+
+
+@pytest.mark.long
+def test_kicads_own_rules_find_nothing(boards, tmp_path):
+    path = tmp_path / "board.kicad_pcb"
+    path.write_text(boards[0][3])
+    report = _drc(path)
+    if report is None:
+        pytest.skip("KiCad is not installed")
+    assert "Found 0 unconnected" in report
+    errors = re.findall(r"^\[(\w+)\]", report, re.MULTILINE)
+    assert set(errors) <= {"track_dangling"}  # a row's end beyond its last comb, a warning
+
+
+def test_gerbers_hold_the_copper_of_the_board(boards):
+    _, _, board, _ = boards[0]
+    data = gerber_zip(board)
+    assert data == gerber_zip(board)
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        files = {name: archive.read(name).decode() for name in archive.namelist()}
+    assert set(files) == {
+        "front_copper.gtl", "back_copper.gbl", "front_mask.gts", "back_mask.gbs", "outline.gko", "holes.drl",
+    }  # fmt: skip
+    assert files["front_copper.gtl"].count("G36*") == len(board.combs)
+    assert files["front_copper.gtl"].count("D03*") == files["holes.drl"].count("X") == len(board.vias)
+    assert all(text.rstrip().endswith(("M02*", "M30")) for text in files.values())
+
+
+def test_another_programs_reader_sees_the_same_front(boards):
+    gerbonara = pytest.importorskip("gerbonara")
+    _, _, board, _ = boards[0]
+    with zipfile.ZipFile(io.BytesIO(gerber_zip(board))) as archive:
+        read = gerbonara.GerberFile.from_string(archive.read("front_copper.gtl").decode())
+        holes = gerbonara.ExcellonFile.from_string(archive.read("holes.drl").decode())
+    kinds = [type(thing).__name__ for thing in read.objects]
+    assert kinds.count("Region") == len(board.combs)
+    assert kinds.count("Flash") == len(board.vias) == len(holes.objects)
+    (x0, y0), (x1, y1) = read.bounding_box(unit=gerbonara.utils.MM)
+    low_x, low_y, high_x, high_y = board.outline.bounds
+    assert low_x < x0 < x1 < high_x
+    assert -high_y < y0 < y1 < -low_y
