@@ -84,6 +84,9 @@ class AnalysisOrder:
     mass: float | None = _option(None, "Mass of the body in kg: forces are given in percent of its weight.")
     foot_length: float | None = _option(None, "Length of the foot in m, for the report's heading.")
 
+    day: bool = _option(False, "Measure a day of insoles: bouts, steps and load by the hour, on one page.")
+    clock: str | None = _option(None, "Of a day: when the recording began, as 08:30 or 2026-03-02T08:30.")
+
     def choices(self) -> Any:
         """The `AnalysisOptions`: which steps and events count."""
         from plantar.gait.analysis.masks import masks_of
@@ -204,6 +207,8 @@ def analyze(
 
     Example: plantar analyze scan.png --mm-per-pixel 0.5
 
+    Example: plantar analyze day.npz --day --clock 08:30
+
     Example: plantar analyze --compare before.mcap after.mcap -o out/both
 
     Example: plantar analyze recordings/ --participants table.csv -o out/study
@@ -225,6 +230,11 @@ def analyze(
         if export:
             raise InputError("--export is for one recording; a study's tables are CSV files")
         _analyze_study(recording, participants, file, order, study, output, as_json, drawn)
+        return
+    if order.day or order.clock:
+        if not order.day or recording is None or export:
+            raise InputError("--day measures one recording, --clock is its begin: plantar analyze day.npz --day")
+        _analyze_day(recording, file, order, output, as_json, drawn)
         return
     if study != StudyOrder():
         raise InputError("--factor to --scheduler are for a folder of recordings: plantar analyze recordings/")
@@ -257,6 +267,30 @@ def _analyze_one(
             also=exporter(export),
             **_known(file, order, figures),
         )
+
+
+def _analyze_day(
+    recording: Path, file: FileOrder, order: AnalysisOrder, output: Path, as_json: bool, figures: bool
+) -> None:
+    from plantar.formats import read_recording
+    from plantar.gait.analysis.analyse_one import with_layout
+    from plantar.gait.analysis.day.day_page import summary_of, write_day
+    from plantar.gait.analysis.day.measured_day import clock_of, hours_and_minutes, measure_day
+
+    clock = clock_of(order.clock)
+    masks = order.choices().masks
+    held = read_recording(recording, file.format, options=with_layout(file.options(order.mass), file.layout))
+    day = measure_day(held, order.mass, clock, masks)
+    title = order.participant or recording.name
+    files = write_day(day, masks, output, title, figures)
+    text = (
+        f"{hours_and_minutes(day.end - day.begin)}: {day.steps} steps, walking "
+        f"{hours_and_minutes(day.seconds('walking'))}, standing {hours_and_minutes(day.seconds('standing'))}, sitting "
+        f"{hours_and_minutes(day.seconds('sitting'))}"
+    )
+    end_command(summary_of(day) | {"files": files}, as_json, text + file_lines(files))
+    for note in () if as_json else day.notes[:_NOTES]:
+        print_note(f"note: {note}")
 
 
 def _known(file: FileOrder, order: AnalysisOrder, figures: bool) -> dict[str, Any]:

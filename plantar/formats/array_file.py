@@ -25,17 +25,19 @@ from plantar.errors import FormatError, LayoutError, PlantarError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.field_names import heading_of
 from plantar.formats.format import Format, ReadOptions
+from plantar.formats.grid_file import opened_array
 from plantar.formats.side import on_one_time, side_of
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
 from plantar.formats.table_text import time_unit
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
-from plantar.recordings.frame_table import MOST_VALUES
+from plantar.recordings.frame_table import LARGE, MOST_VALUES, let_go, room
 from plantar.recordings.pressure_recording import Kind, PressureRecording, sampling
 
 _SLOWEST = 0.05  # s of a frame of times that are taken to be in ms, us or ns
 _LARGEST = 4e9  # Largest size of all arrays in bytes
 _NO_LOADS = ("foreign", "cop", "moment", "place")
+_PIECE = 8_000_000  # Bytes of a large array that are read together
 _SHOWN = 20  # arrays in a message
 _LONGEST_FACT = 400  # bytes
 
@@ -45,6 +47,7 @@ class _Array:
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
     read: Callable[[], NDArray[Any]]
+    opened: Callable[[], IO[bytes]] | None = None
 
     @property
     def size(self) -> int:
@@ -178,7 +181,7 @@ def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) ->
         if version not in ((1, 0), (2, 0)):
             raise ValueError(f"version {version[0]}.{version[1]} of numpy's format")
         header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        shape, _, dtype = header(stream)
+        shape, by_columns, dtype = header(stream)
         held = size - stream.tell()
     if dtype.hasobject:
         raise ValueError(f"array {name!r} holds Python objects, which are not unpickled")
@@ -191,15 +194,31 @@ def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) ->
         with opened() as stream:
             return np.asarray(np.lib.format.read_array(stream, allow_pickle=False))
 
-    return _Array(shape, dtype, read)
+    return _Array(shape, dtype, read, None if by_columns else opened)
 
 
 def _frames(array: _Array) -> NDArray[np.float64]:
+    if array.opened is not None and array.size * 8 > LARGE:
+        return _large_frames(array, array.opened)
     table = np.asarray(array.read(), dtype=float).reshape(array.shape[0], -1)
     for start in range(0, len(table), 4096):  # by blocks: a mask of all would be as large as the file
         block = table[start : start + 4096]
         block[np.isinf(block)] = np.nan
     return table
+
+
+def _large_frames(array: _Array, opened: Callable[[], IO[bytes]]) -> NDArray[np.float64]:
+    """Table of a large array, read in pieces into a file that vanishes with it: never all of it in memory."""
+    out = room(array.shape[0], array.size // max(1, array.shape[0]))
+    filled = 0
+    with opened() as stream:
+        for block in opened_array(stream, array.shape, array.dtype).blocks(_PIECE):
+            part = block.reshape(len(block), -1).astype(float)
+            part[np.isinf(part)] = np.nan
+            out[filled : filled + len(part)] = part
+            filled += len(part)
+            let_go(out)
+    return out
 
 
 def _text(arrays: dict[str, _Array], *keys: str) -> str | None:

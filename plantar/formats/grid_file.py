@@ -82,6 +82,14 @@ class GridArray:
             left -= rows
 
 
+def opened_array(stream: IO[bytes], shape: tuple[int, ...], dtype: np.dtype[Any]) -> GridArray:
+    """Array of a stream at the begin of numpy's format, whose header is known to state a shape and type by rows."""
+    version = np.lib.format.read_magic(stream)
+    reader = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    reader(stream)
+    return GridArray(stream, ArrayHead(shape, dtype))
+
+
 @contextmanager
 def open_grid(path: str | os.PathLike[str]) -> Iterator[GridArray]:
     """Open the one array of an NPZ or NPY file; FormatError if it is none, holds objects or is too large."""

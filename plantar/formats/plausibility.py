@@ -277,8 +277,9 @@ def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: 
     """Marks among readings (n, k), each divided by one of (k,) numbers."""
     if not force.size:
         return []
-    sample = force[:: max(1, force.size // _SAMPLED)] / per
-    let_go(force)
+    every = max(1, force.size // _SAMPLED)
+    parts = [force[rows][-rows.start % every :: every].copy() for rows in blocks_of_frames(force)]  # page by page
+    sample = np.concatenate(parts) / per
     sample = np.unique(sample[np.isfinite(sample)])
     lowest, highest = _ends(force, per)
     found = []

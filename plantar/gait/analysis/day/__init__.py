@@ -1,0 +1,1 @@
+"""A day of insoles: what its wearer did, and what the feet carried, by the hour."""
