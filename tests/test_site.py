@@ -18,8 +18,9 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGES = [
     *(ROOT / "docs" / f"{name}.md" for name in ("start", "questions", "concepts")),
     *sorted((ROOT / "docs" / "tutorials").glob("*.md")),
+    *(p for p in sorted((ROOT / "docs" / "answers").glob("*.md")) if p.stem != "index"),
 ]
-QUICK = {"concepts", "format", "loop", "part", "questions", "sensor", "task"}
+QUICK = {"concepts", "format", "loop", "part", "questions", "sensor", "task"} | {"belts", "foot_force", "pads"}
 """Pages that take a few seconds at most; the others walk, build or analyse, and run with the long tests."""
 BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
