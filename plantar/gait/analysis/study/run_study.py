@@ -62,7 +62,7 @@ _PROVENANCE = ("format", "version", "options", "sha256")  # columns at the end o
 _ALWAYS = ("recordings", "comparison")  # Tables that are written without rows, too
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Study:
     """Measured study.
 
@@ -75,6 +75,21 @@ class Study:
     choices: AnalysisOptions
     files: Sequence[str] = ()
     plan: StudyOptions = field(default_factory=StudyOptions)
+
+    def __repr__(self) -> str:
+        measured = [result for result in self.results if not result.error]
+        people = len({result.who.participant for result in measured})
+        pairs = ", ".join(f"{c.a} with {c.b}" for c in self.comparisons) or "nothing"
+        return (
+            f"Study({len(measured)} of {len(self.results)} recordings measured, {people} participants, "
+            f"{sum(len(result.rows) for result in measured)} steps; compared: {pairs})"
+        )
+
+    def _repr_html_(self) -> str:
+        from plantar.plotting import html_of
+
+        figures = {name: figure for name, figure, _ in study_figures(self.comparisons[:1])}
+        return html_of(figures.get("effects"), repr(self))
 
     @cached_property
     def changes(self) -> list[Comparison]:

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -290,3 +291,12 @@ def test_no_figure_of_the_page_is_cut_in_print(study, tmp_path):
     images = printed_images(page, tmp_path)
     assert len(images) == page.read_text().count("<figure") == 3
     assert whole(images)
+
+
+def test_a_study_is_one_line_and_a_figure_in_a_notebook(study):
+    measured = study[2]
+    assert "\n" not in repr(measured)
+    assert len(repr(measured)) < 200
+    assert re.fullmatch(r"Study\(\d+ of \d+ recordings measured, .* compared: \w+ with \w+\)", repr(measured))
+    assert "data:image/png" in measured._repr_html_()
+    assert "img" not in Study([], [], measured.choices)._repr_html_()
