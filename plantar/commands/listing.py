@@ -71,15 +71,30 @@ def list_(
 
         end_command({what: paper_rows(name)}, as_json, paper_text(name))
         return
-    from plantar.sim.run.listing import listed
+    from plantar.sim.run.listing import listed, scenes_by_group
 
+    if what == "scenes":
+        groups = scenes_by_group()
+        rows = [
+            {"name": name, "description": text, "group": group}
+            for group, own in groups.items()
+            for name, text in own.items()
+        ]
+        width = max(len(row["name"]) for row in rows)
+        text = "\n".join(f"{group}\n{_lines(own, width, '  ')}" for group, own in groups.items())
+        end_command({what: rows}, as_json, text)
+        return
     _print_names(what, listed(what), as_json)
 
 
 def _print_names(kind: str, found: dict[str, str], as_json: bool) -> None:
     width = max((len(name) for name in found), default=0)
-    text = "\n".join(f"{name:{width}}  {text}".rstrip() for name, text in found.items())
-    end_command({kind: [{"name": name, "description": text} for name, text in found.items()]}, as_json, text)
+    rows = [{"name": name, "description": text} for name, text in found.items()]
+    end_command({kind: rows}, as_json, _lines(found, width))
+
+
+def _lines(found: dict[str, str], width: int, before: str = "") -> str:
+    return "\n".join(f"{before}{name:{width}}  {text}".rstrip() for name, text in found.items())
 
 
 COMMAND = Command(list_, "List robots, scenes, papers, formats, sources or settings.", 80, name="list")

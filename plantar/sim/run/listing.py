@@ -1,10 +1,39 @@
 """Names of robots, machines, scenes, papers, formats and live sources, without a simulator."""
 
+from fnmatch import fnmatch
 from typing import Any
 
 from plantar.common.files.structured_text import described_files, packaged_files
 from plantar.errors import InputError
 from plantar.sim.papers.preset import paper_files
+
+SCENE_GROUPS: dict[str, tuple[str, ...]] = {
+    "level ground": ("flat", "long-walk", "s-curve", "turn", "stop", "wander", "load"),
+    "narrow and partial footholds": ("beam*", "partial-*", "stones", "pebbles"),
+    "ground that the plan does not know": (
+        *("feasibility-*", "obstacle", "tilt", "uneven", "height-field"),
+        *("slopes", "stairs", "slide-in", "mixed"),
+    ),
+    "pushes, and hands that lead": ("push", "push-*", "balance", "box-step", "guide", "leader-follower"),
+    "skin on the whole body": ("hug", "lean", "multi-contact", "nociception", "pressure", "feather", "stove"),
+    "arms": ("force-tracking-*", "intentional-contact", "table-contact"),
+}
+"""Built-in scenes by what they try; names, or patterns of names."""
+
+
+def scenes_by_group() -> dict[str, dict[str, str]]:
+    """Built-in scenes with a line on each, by group; those of no group last.
+
+    Example:
+        >>> sorted(scenes_by_group()["arms"])[0]
+        'force-tracking-1'
+    """
+    left = listed("scenes")
+    found = {
+        group: {name: left.pop(name) for name in [n for n in left if any(fnmatch(n, p) for p in patterns)]}
+        for group, patterns in SCENE_GROUPS.items()
+    }
+    return found | ({"others": left} if left else {})
 
 
 def listed(what: str) -> dict[str, str]:
