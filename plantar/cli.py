@@ -6,7 +6,7 @@ from pkgutil import iter_modules
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 from plantar import commands, kernels
 from plantar.common.console.command import Command, run_command
@@ -27,6 +27,23 @@ class _Groups(TyperGroup):
         for title, names in (("Commands", first), ("More", [name for name in found if name not in first])):
             with formatter.section(title):
                 formatter.write_dl([(name, found[name].get_short_help_str(80)) for name in names])
+
+
+class _Titled(TyperCommand):
+    """Help whose options come in groups, those that many commands have last."""
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        sections: dict[str, list[tuple[str, str]]] = {"Arguments": []}
+        for parameter in self.get_params(ctx):
+            record = parameter.get_help_record(ctx)
+            kind = "Arguments" if parameter.param_type_name == "argument" else "Options"
+            if record is not None:
+                sections.setdefault(getattr(parameter, "rich_help_panel", None) or kind, []).append(record)
+        sections["Options"] = sections.pop("Options", [])
+        for title, records in sections.items():
+            if records:
+                with formatter.section(title):
+                    formatter.write_dl(records)
 
 
 app = typer.Typer(
@@ -70,7 +87,7 @@ def _found() -> dict[str, Command]:
 
 
 for _name, _command in sorted(_found().items(), key=lambda found: found[1].place):
-    app.command(name=_name, short_help=_command.summary)(_command.function)
+    app.command(name=_name, cls=_Titled, short_help=_command.summary)(_command.function)
 
 
 def main() -> None:

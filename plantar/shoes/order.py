@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 
 def _option(default: Any, text: str, metavar: str | None = None) -> Any:
@@ -18,6 +18,8 @@ class FootSource:
         True
     """
 
+    TITLE: ClassVar[str] = "The foot"
+
     file: Path | None = None
     robot: str | None = _option(None, "A built-in robot instead of a file, for example h1.")
     body: str | None = _option(None, "Name of the foot's body or link in a robot's model.")
@@ -25,11 +27,11 @@ class FootSource:
         None, "Length, width and corner radius of a box instead of a file, in mm.", metavar="LxW[xR]"
     )
     mesh_side: str | None = _option(
-        None, "Which foot the file shows: left or right. Default: by the body's or file's name, or left."
+        None, "Which foot the file shows. Default: by the body's or file's name, or left.", metavar="left|right"
     )
-    unit: str | None = _option(None, "Unit of the file: m, cm, mm, in. Default: from its size.")
-    up: str | None = _option(None, "Axis that points up: x, -x, y, -y, z, -z. Default: found.")
-    forward: str | None = _option(None, "Axis to the toes: x, -x, y, -y. Default: found.")
+    unit: str | None = _option(None, "Unit of the file. Default: from its size.", metavar="m|cm|mm|in")
+    up: str | None = _option(None, "Axis that points up. Default: found.", metavar="x|-x|y|-y|z|-z")
+    forward: str | None = _option(None, "Axis to the toes. Default: found.", metavar="x|-x|y|-y")
     shank: str | None = _option(
         None,
         "Where the shank passes above a foot without a robot's model, from its origin in mm; straps keep off it. "
@@ -48,7 +50,9 @@ class ShoeOrder:
         691.0
     """
 
-    side: str = _option("both", "left, right or both; the right shoe mirrors the left.")
+    TITLE: ClassVar[str] = "What is made"
+
+    side: str = _option("both", "Which shoes; the right one mirrors the left.", metavar="left|right|both")
     cell_area: float = _option(691.0, "Area of one taxel in mm^2, as the papers give it.")
     taxels: int | None = _option(
         None, "Number of taxels; may reach beyond the sole as far as needed. Default: as many as fit."
@@ -58,6 +62,7 @@ class ShoeOrder:
         None,
         "Cells along the edge: whole, or fine for a row of smaller ones and a blind rim of 12 mm at most. "
         "Default: whole; of an insole fine.",
+        metavar="whole|fine",
     )
     cell: str | None = _option(
         None,

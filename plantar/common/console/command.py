@@ -100,7 +100,7 @@ def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
     """Replace a command's dataclass parameters by their options; returns the function of single options.
 
     Typer knows no groups. Fields with "help" in their metadata are options; "metavar" is shown for the value, "names"
-    replaces option names; all have defaults. A TypeError if names repeat.
+    replaces option names; all have defaults. A class's TITLE is their heading in the help. TypeError if names repeat.
 
     Example:
         >>> from dataclasses import dataclass, field
@@ -149,7 +149,12 @@ def _options_of(group: type[Any]) -> list[inspect.Parameter]:
             default=f.default,
             annotation=Annotated[
                 hints[f.name],
-                typer.Option(*f.metadata.get("names", ()), help=f.metadata["help"], metavar=f.metadata.get("metavar")),
+                typer.Option(
+                    *f.metadata.get("names", ()),
+                    help=f.metadata["help"],
+                    metavar=f.metadata.get("metavar"),
+                    rich_help_panel=getattr(group, "TITLE", None),
+                ),
             ],
         )
         for f in fields(group)

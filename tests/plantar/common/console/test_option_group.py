@@ -7,6 +7,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from plantar import cli
 from plantar.common.console.command import with_option_groups
 
 
@@ -68,3 +69,13 @@ def test_a_name_twice_is_refused():
 
     with pytest.raises(TypeError, match="twice has an option twice: length, side_name, flat, length"):
         with_option_groups(twice)
+
+
+def test_the_commands_help_has_groups_with_choices_and_what_all_have_last():
+    text = CliRunner().invoke(cli.app, ["analyze", "--help"]).output
+    heads = ["Arguments:", "What the file does not state:", "Which steps, and whose:", "Of a folder: what is compared:"]
+    places = [text.index(head) for head in [*heads, "Options:"]]
+    assert places == sorted(places)
+    assert "--side left|right" in text
+    assert text.index("--participants") > places[3]
+    assert text.index("--output") > places[4]
