@@ -29,7 +29,7 @@ from plantar.common.optional_library import LIBRARIES  # noqa: E402
 PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
 _DEPENDENCY = re.compile(r"(\w+)[\w.]* is not installed; install it with: .*pip install .*'")
 _NEEDS_A_FILE = re.compile(
-    r"(cannot be read|does not exist|No such file or directory|give a \w+|^usage: )", re.MULTILINE
+    r"(cannot be read|does not exist|No such file or directory|Error opening file|give a \w+|^usage: )", re.MULTILINE
 )
 _NOT_RUN = (
     "make ",
@@ -46,7 +46,7 @@ _NOT_RUN = (
     "cat ",
 )
 _BROUGHT = {"shoes": {"OCP"}}  # by an extra's libraries in turn
-_OTHER_LIBRARIES = {"torch", "jax", "mjlab", "pandas", "mine", "mink", "unitree_sdk2py"}
+_OTHER_LIBRARIES = {"torch", "jax", "mjlab", "pandas", "mine", "mink", "unitree_sdk2py", "imageio"}
 """Of pages on other people's packages, or yours."""
 
 

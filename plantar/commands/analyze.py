@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import Annotated, Any, ClassVar, cast
 
 from typer import Argument, Option
 
@@ -22,6 +22,8 @@ def _option(default: Any, text: str, *names: str, metavar: str | None = None) ->
 class FileOrder:
     """Options for facts that a file does not contain."""
 
+    TITLE: ClassVar[str] = "What the file does not state"
+
     format: str | None = _option(None, "Name of the format, where recognition fails: see plantar list formats.")
     layout: Path | None = _option(  # noqa: RUF009
         None, "Layout file to use instead of the format's own geometry; mirrored for the other foot."
@@ -29,10 +31,10 @@ class FileOrder:
     unit: str | None = _option(None, "Unit of the values, instead of the file's: kPa, N/cm2, mmHg, psi, N, raw, ...")
     rate: float | None = _option(None, "Frames a second, instead of the file's.")
     side: str | None = _option(
-        None, "Which foot a file of one foot, or the first columns of a pedar file, hold: left or right."
+        None, "Which foot a file of one foot, or the first columns of a pedar file, hold.", metavar="left|right"
     )
     insole_size: str | None = _option(
-        None, "Size of a pedar insole, instead of the file's: u, v, w, x, y, z, uw, vw or xw."
+        None, "Size of a pedar insole, instead of the file's.", metavar="u|v|w|x|y|z|uw|vw|xw"
     )
     plates: str | None = _option(
         None, "Which foot steps on each force plate, in order; - leaves a plate out.", metavar="L,R"
@@ -64,21 +66,31 @@ class FileOrder:
 class AnalysisOrder:
     """Options for the measured steps and the person."""
 
-    steps: str | None = _option(None, "Steps of each foot in the means: 3-14, all, or steady (without start and stop).")
+    TITLE: ClassVar[str] = "Which steps, and whose"
+
+    steps: str | None = _option(
+        None, "Steps of each foot in the means, or all, or steady (without start and stop).", metavar="3-14|all|steady"
+    )
     begin: float | None = _option(None, "Time in s before which no step is in the means.", "--from")
     end: float | None = _option(None, "Time in s after which no step is in the means.", "--to")
     segment: str | None = _option(
-        None, "Activity in the means: walking, running or hopping. Default: that of most steps."
+        None, "Activity in the means. Default: that of most steps.", metavar="walking|running|hopping"
     )
-    baseline: str = _option("auto", "auto subtracts what sensors read in swing where that is an offset; keep does not.")
+    baseline: str = _option(
+        "auto", "auto subtracts what sensors read in swing where that is an offset; keep does not.", metavar="auto|keep"
+    )
     events: str = _option(
-        "own", "own finds heel strikes and toe offs in the force; vendor uses those of the file; or a file's path."
+        "own",
+        "own finds heel strikes and toe offs in the force; vendor uses those of the file; or a file's path.",
+        metavar="own|vendor|FILE",
     )
     threshold: float | None = _option(
         None, "Force in N at which heel strikes and toe offs lie, by a protocol, instead of those found in the force."
     )
     masks: str = _option(
-        "seven", "Regions of the foot: seven (automatic), ten (by anatomy), or a file of polygons (JSON, or mask,u,v)."
+        "seven",
+        "Regions of the foot: seven (automatic), ten (by anatomy), or a file of polygons (JSON, or mask,u,v).",
+        metavar="seven|ten|FILE",
     )
     participant: str = _option("", "The person's name, for the report's heading.")
     mass: float | None = _option(None, "Mass of the body in kg: forces are given in percent of its weight.")
@@ -114,6 +126,8 @@ class AnalysisOrder:
 @dataclass(frozen=True)
 class StudyOrder:
     """Options for a folder of recordings: what is compared."""
+
+    TITLE: ClassVar[str] = "Of a folder: what is compared"
 
     factor: list[str] | None = _option(  # noqa: RUF009
         None,
@@ -170,7 +184,11 @@ def analyze(
         ),
     ] = None,
     participants: Annotated[
-        Path | None, Option(help="Of a folder: table (CSV) of file, participant, condition and what else is known.")
+        Path | None,
+        Option(
+            help="Table (CSV) of file, participant, condition and what else is known.",
+            rich_help_panel=StudyOrder.TITLE,
+        ),
     ] = None,
     compare: Annotated[
         tuple[Path, Path] | None,
@@ -246,10 +264,10 @@ def analyze(
         if export:
             raise InputError("--export is for one recording; --compare takes two")
         result = _compare(compare, file, order, output, drawn)
-        _end(result, {"A": result["a"], "B": result["b"]}, as_json)
+        _end(result, {"A": result["a"], "B": result["b"]}, output, as_json)
     else:
         result = _analyze_one(cast(Path, recording), export or [], file, order, output, drawn)
-        _end(result, {"": result}, as_json)
+        _end(result, {"": result}, output, as_json)
 
 
 def _analyze_one(
@@ -315,9 +333,11 @@ def _compare(
         return compare_recordings(*pair, output, progress=progress, **_known(file, order, figures))
 
 
-def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
+def _end(result: dict[str, Any], parts: dict[str, Any], output: Path, as_json: bool) -> None:
+    from plantar.common.pages.folder_page import with_folder_page
     from plantar.gait.analysis.pages.report import analysis_text
 
+    result["files"] = with_folder_page(output, "Analysis", result["files"])
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
     end_command(result, as_json, text + file_lines(result["files"]))
     for name, metrics in () if as_json else {"": result, **parts}.items():
@@ -340,6 +360,7 @@ def _analyze_study(
     figures: bool,
 ) -> None:
     """Measure a folder of recordings; one that cannot be read is listed, without failing the command."""
+    from plantar.common.pages.folder_page import with_folder_page
     from plantar.common.workers.cluster_workers import network_note
     from plantar.gait.analysis.analyse_one import with_layout
     from plantar.gait.analysis.study.run_study import run_study
@@ -362,9 +383,10 @@ def _analyze_study(
             figures=figures,
             plan=plan.plan(),
         )
-    summary = study.summary() | {"files": list(study.files)}
+    files = with_folder_page(output, "Study", study.files)
+    summary = study.summary() | {"files": files}
     text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
-    end_command(summary, as_json, text + file_lines(study.files))
+    end_command(summary, as_json, text + file_lines(files))
     missed = [f"not measured: {name}: {why}" for name, why in summary["errors"].items()]
     for note in () if as_json else (*summary["notes"], *missed):
         print_note(note)

@@ -39,6 +39,7 @@ def demo(
     need_libraries("sim", *LIBRARIES)
     need_compiled("walking")
     from plantar.common.atomic import output_folder, write_text
+    from plantar.common.pages.folder_page import with_folder_page
     from plantar.gait.analysis.analyse_one import analyse_recording
     from plantar.layouts.layout_file import read_layout
     from plantar.shoes import build_shoe, export_shoe
@@ -63,6 +64,7 @@ def demo(
         part = part_of(progress, 0.8, 0.2, "analysis: ")
         analysis = analyse_recording(recording, folder / "analysis", progress=part)
         files = sorted(str(output / p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+    files = with_folder_page(output, "A shoe, a walk on it, and its analysis", files)
     done = bool(walk["completed"]) and bool(report["holds"])
     made = {"completed": done, "shoe": report, "walk": walk, "analysis": analysis, "files": files}
     end_command(made, as_json, demo_text(made, output), failed=not done)
@@ -71,6 +73,7 @@ def demo(
 def _small(output: Path, as_json: bool) -> None:
     """Analyse the two recordings that tools/small_demo.py made, and write the page of the robot's."""
     from plantar.common.atomic import output_folder
+    from plantar.common.pages.folder_page import with_folder_page
     from plantar.gait.analysis.analyse_one import analyse_recording
     from plantar.viewer.page import write_page
 
@@ -87,6 +90,7 @@ def _small(output: Path, as_json: bool) -> None:
             analyses[recording.stem] = analyse_recording(recording, folder / recording.stem, progress=part)
         write_page([robot], folder / "robot" / "view.html")
         made = sorted(str(output / p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+    made = with_folder_page(output, "A robot's walk, and one on insoles", made)
     pages = [output / "robot" / "report.html", output / "robot" / "view.html", output / "insole" / "report.html"]
     says = ["a robot's walk: its report, and the page that plays it in 3D; a walk on insoles: its report"]
     end_command({"analysis": analyses, "files": made}, as_json, "\n".join([*says, *(f"  {p}" for p in pages)]))

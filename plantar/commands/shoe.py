@@ -55,6 +55,7 @@ def shoe(
     Example: plantar shoe outline_of_my_foot.svg --insole 6 --set robot_mass=72 -o out/insole
     """
     from plantar.common.atomic import output_folder
+    from plantar.common.pages.folder_page import with_folder_page
     from plantar.shoes import ShoeParameters, export_shoe, read_parameters
     from plantar.shoes.foot.source import read_foot
     from plantar.shoes.ordered import build_ordered, coupons_text, write_ordered_coupons
@@ -81,7 +82,8 @@ def shoe(
             end_command(made, as_json, coupons_text(made))
             return
         report = export_shoe(build, folder, progress=part_of(progress, 0.6, 0.4))
-    summary = report.as_dict() | {"files": [str(output / name) for name in report.files]}
+    files = with_folder_page(output, "Shoe", [str(output / name) for name in report.files])
+    summary = report.as_dict() | {"files": files}
     failed = failed_checks(summary)
     end_command(summary, as_json, shoe_text(summary), (f"check does not hold: {line}" for line in failed), bool(failed))
 

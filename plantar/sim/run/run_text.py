@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from plantar.common.console.command import file_lines
 from plantar.common.gravity import GRAVITY
 
 Summary = Mapping[str, Any]
@@ -46,8 +45,7 @@ def demo_text(made: Mapping[str, Any], output: Path) -> str:
         f"{'all checks hold' if shoe['holds'] else 'A CHECK DOES NOT HOLD'}\n"
         f"{run_text(made['walk'])}\n"
         f"analysis: {steps.get('left', 0)} left and {steps.get('right', 0)} right complete steps\n"
-        f"made:{file_lines(made['files'])}\n"
-        f"open {output / 'analysis' / 'report.html'} in a browser"
+        f"open {output / 'index.html'} in a browser: it leads to all {len(made['files']) - 1} files"
     )
 
 
