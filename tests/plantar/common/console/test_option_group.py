@@ -77,5 +77,5 @@ def test_the_commands_help_has_groups_with_choices_and_what_all_have_last():
     places = [text.index(head) for head in [*heads, "Options:"]]
     assert places == sorted(places)
     assert "--side left|right" in text
-    assert text.index("--participants") > places[3]
-    assert text.index("--output") > places[4]
+    assert text.index("  --participants") > places[3]
+    assert text.index("  -o, --output") > places[4]
