@@ -71,7 +71,8 @@ class TaxelFaults:
     def worn(self, layout: SoleLayout | SkinPatch, seed: int = 0, batch: tuple[int, ...] = ()) -> "WornFaults":
         """Draw the faults of one sole, or of many.
 
-        `batch`: dimensions of many soles, for arrays (*batch, n). Returns faults, with state of hysteresis and delay.
+        `layout`: its taxels; `seed`: of what is drawn; `batch`: dimensions of many soles, for arrays (*batch, n).
+        Returns faults, with state of hysteresis and delay.
         """
         rng = np.random.default_rng(seed)
         shape = (*batch, len(layout))
