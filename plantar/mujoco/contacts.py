@@ -16,7 +16,10 @@ _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
 
 
 class ContactReader:
-    """Gathers the contacts of several feet of one simulation. `feet`: ids of each foot's geoms."""
+    """Gathers the contacts of several feet of one simulation.
+
+    `feet`: ids of each foot's geoms. Attribute `count`: contacts of all bodies at the last `read`.
+    """
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
         # a copy's may differ
@@ -30,11 +33,13 @@ class ContactReader:
         self._cone = self._options.cone
         self._sticks = bool(getattr(self._model, "flg_adhesion", False))  # of geoms, since MuJoCo 4
         self._lists: dict[int, ContactList] = {}
+        self.count = 0
 
     def read(self) -> tuple[FootContacts, ...]:
         """Each foot's contacts after the last `mj_step` or `mj_forward`, in reused objects."""
         data = self._data
         n = data.ncon
+        self.count = n
         if not n:
             for foot in self._feet:
                 foot.clear()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Self
@@ -14,7 +13,6 @@ from plantar.common.arguments import instance, number
 from plantar.common.lazy import lazy
 from plantar.common.record import constructed_by_kernel
 from plantar.errors import ReadingError
-from plantar.kernels.base.vectors import close
 from plantar.kernels.skin.percept_fields import PerceptFields
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask
@@ -63,7 +61,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         _stuck: NDArray[np.bool_] | None
 
         def _keep(self, *fields: Any) -> None: ...
-        def _take_loads(self, loads: NDArray[np.float64]) -> None: ...
+        def _fill_summed(self, *fields: Any) -> None: ...
         def _active_above(self) -> NDArray[np.bool_] | None: ...
         def _loads(self) -> NDArray[np.float64]: ...
         def _wrench(self) -> NDArray[np.float64]: ...
@@ -115,15 +113,8 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         Returns:
             Percept.
         """
-        close(loads)
-        vertical = loads.item(2)
         percept = cls.__new__(cls)
-        percept._keep(layout, reading, layout.force_threshold, None, None, cls.PLAIN[2])
-        percept._take_loads(loads)
-        known = percept.__dict__  # where lazy members look first
-        known["vertical_force"] = vertical
-        known["wrench_in_sole"] = loads[:6]
-        known["position_cop_in_sole"] = loads[7:] if 0.0 < vertical < math.inf else None
+        percept._fill_summed(layout, reading, cls.PLAIN[2], loads)
         return percept
 
     def __repr__(self) -> str:

@@ -13,7 +13,6 @@ from plantar.common.arguments import number
 from plantar.common.arrays import numbers, own
 from plantar.common.record import constructed_by_kernel
 from plantar.errors import ReadingError
-from plantar.kernels.base import vectors
 from plantar.kernels.skin.percept_fields import ReadingFields
 
 _TIME = "reading field 'time'"
@@ -49,7 +48,7 @@ class Reading(ReadingFields):
 
     if TYPE_CHECKING:
 
-        def _keep(self, *fields: Any) -> None: ...
+        def _take_over(self, *fields: Any) -> None: ...
 
     def __init__(
         self,
@@ -95,10 +94,7 @@ class Reading(ReadingFields):
             Reading, without temperature and acceleration.
         """
         reading = cls.__new__(cls)
-        vectors.close(force)
-        if proximity is not None:
-            vectors.close(proximity)
-        reading._keep(time, force, proximity, None, None)
+        reading._take_over(time, force, proximity)
         return reading
 
     def __reduce__(self) -> tuple[Any, ...]:

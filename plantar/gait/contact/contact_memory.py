@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.arrays import read_only
-from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.geometry.polygon import convex_hull
 from plantar.kernels.gait.touching_cells import TouchingCells
+from plantar.kernels.geometry import convex
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
 
@@ -79,4 +80,6 @@ class ContactMemory:
     def encloses(self, point: NDArray[np.float64]) -> bool:
         """Whether a point (2,), sole frame, in m, lies between the contacts."""
         polygon = self.polygon
-        return len(polygon) >= 3 and signed_margin(polygon, point) >= 0.0
+        # A hull is convex: it needs no check.
+        x, y = point.tolist()
+        return len(polygon) >= 3 and bool(convex.signed_margin(polygon, x, y) >= 0.0)

@@ -1,6 +1,7 @@
 """What feet stand on, or will when they land, by their soles (T 4.4.2-4.4.3)."""
 
 import math
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -26,6 +27,7 @@ from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 _FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
 _LEANS = 0.05  # rad from which a sole on a slope moves its ankle by more than encoders err
 _ASIDE = 0.5  # of the room around the best place by torques in which a whole sole keeps its middle
+_STANDING: dict[Side | None, tuple[Side, ...]] = {None: SIDES, "left": ("right",), "right": ("left",)}  # by swing
 _NARROW = 0.5  # of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP
 
 
@@ -135,6 +137,7 @@ class FootContacts:
         self._foreseen = -1
         self._part = -_FORGETS - 1
         self._region_of: list[object] = []
+        self._region_at: list[object] = []
         self._region = np.empty((0, 2))
 
     def center(self, side: Side) -> NDArray[np.float64]:
@@ -289,14 +292,21 @@ class FootContacts:
         Unknown support counts as the whole sole; a single foot within its ankle's torques. `phase` is the walk's,
         `feet` the commanded, `frame_offset` (3,) of the command frame in the world in m.
         """
-        standing = [s for s in SIDES if feet.landed or phase.swing != s]
+        standing = SIDES if feet.landed else _STANDING[phase.swing]
         alone = len(standing) == 1
+        now: list[object] = [feet.footholds[side] for side in standing]
+        now += [self._feet[side].support for side in standing]
+        known = self._region_of
+        # Mostly the same objects as a tick ago; a foothold of another height has the same region.
+        if len(known) == len(now) and all(map(operator.is_, known, now)):
+            return self._region
+        self._region_of = now
         places: list[object] = [alone]
         for side in standing:
             position, yaw = feet.footholds[side]
             support = self._feet[side].support
             places.append((side, float(position[0]), float(position[1]), yaw) if support is None else id(support))
-        if places != self._region_of:
+        if places != self._region_at or not known:
             parts = []
             for side in standing:
                 foot = self._feet[side]
@@ -313,5 +323,5 @@ class FootContacts:
             circle = inscribed_circle(support)
             self._region = inner_offset(support, 0.0 if circle is None else min(margin, _NARROW * circle.radius))
             self._region.flags.writeable = False
-            self._region_of = places
+            self._region_at = places
         return self._region

@@ -21,6 +21,7 @@ from plantar.common.settings.schema import fixed, share
 from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.contact_memory import ContactMemory
 from plantar.gait.plan.phases import Phase
+from plantar.kernels.base.vectors import vector2
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
@@ -62,7 +63,7 @@ class FootTurn:
     def __init__(self, gains: ConformityGains, period: float) -> None:
         self.gains = gains
         self.period = period
-        self._past: deque[tuple[NDArray[np.float64], float]] = deque(maxlen=max(1, int(gains.watch)))
+        self._past: deque[tuple[float, float, float]] = deque(maxlen=max(1, int(gains.watch)))  # place and turn
 
     def lift(self) -> None:
         """The foot is in the air."""
@@ -70,7 +71,8 @@ class FootTurn:
 
     def hold(self, center_of_pressure: NDArray[np.float64]) -> None:
         """A tick without turn; `center_of_pressure` (2,), sole frame, in m."""
-        self._past.append((center_of_pressure.copy(), 0.0))
+        x, y = center_of_pressure.tolist()
+        self._past.append((x, y, 0.0))
 
     def incoming(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
@@ -80,14 +82,7 @@ class FootTurn:
         `load`: vertical on it in N; `center_of_pressure` (2,), sole frame, in m; `target`: its wanted place (2,), sole
         frame, in m.
         """
-        g = self.gains
-        away = math.dist(center_of_pressure, target)
-        if away <= g.nearly:
-            self.hold(center_of_pressure)
-            return np.zeros(2)
-        # Begins at zero where "nearly" ends, so that the turn does not start and stop at that distance.
-        rate = (1.0 - g.nearly / away) * self._rate(load, center_of_pressure, target)
-        return self._turn(rate, center_of_pressure, target)
+        return self._turn(load, center_of_pressure, target, self.gains.nearly)
 
     def stance(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
@@ -97,36 +92,41 @@ class FootTurn:
         `load`: vertical on it in N; `center_of_pressure` (2,), sole frame, in m; `target`: desired ZMP (2,), sole
         frame, in m.
         """
-        return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
+        return self._turn(load, center_of_pressure, target, 0.0)
 
-    def _rate(self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> float:
-        """k in rad/s per m, in proportion to load: a servo's stiffness K moves it by K / force a rad."""
+    def _turn(
+        self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64], nearly: float
+    ) -> NDArray[np.float64]:
+        """A tick's turn of a foot that stays as it is within a distance of its target."""
         g = self.gains
-        return g.rolling if self._rolls(center_of_pressure, target) else min(g.rolling, g.firm * load)
+        x, y = center_of_pressure.tolist()
+        wanted_x, wanted_y = target.tolist()
+        dx = x - wanted_x
+        dy = y - wanted_y
+        away = math.hypot(dx, dy)
+        if away <= nearly:
+            self._past.append((x, y, 0.0))
+            return vector2(0.0, 0.0)
+        # In rad/s per m, in proportion to load: a servo's stiffness K moves it by K / force a rad.
+        rate = g.rolling if self._rolls(x, y, dx, dy, away) else min(g.rolling, g.firm * load)
+        # Begins at zero where "nearly" ends, so that the turn does not start and stop at that distance.
+        rate *= 1.0 - nearly / away if nearly else 1.0
+        turn = self.period * min(g.largest_rate, rate * away)
+        self._past.append((x, y, turn))
+        return vector2(turn / away * dy, -turn / away * dx) if away else vector2(0.0, 0.0)
 
-    def _rolls(self, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> bool:
-        """Whether the last turns left the center of pressure unmoved."""
+    def _rolls(self, x: float, y: float, dx: float, dy: float, away: float) -> bool:
+        """Whether the last turns left the center of pressure at x, y, off its target by (dx, dy), unmoved."""
         g = self.gains
         past = self._past
-        away = math.dist(center_of_pressure, target)
         if len(past) != past.maxlen or away <= g.nearly:
             return False
         # On firm ground a turn moves the load, though the later half of the turns are not seen yet by late sensors; one
         # that does not rolls over an edge or a bump.
-        turned = sum(turn for _, turn in islice(past, len(past) // 2))
-        moved = float((past[0][0] - center_of_pressure) @ (center_of_pressure - target)) / away
+        turned = sum(turn for _, _, turn in islice(past, len(past) // 2))
+        first_x, first_y, _ = past[0]
+        moved = ((first_x - x) * dx + (first_y - y) * dy) / away
         return turned > g.least_turn and moved < g.follows * turned
-
-    def _turn(
-        self, rate: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        dx, dy = (center_of_pressure - target).tolist()
-        away = math.hypot(dx, dy)
-        speed = min(self.gains.largest_rate, rate * away)
-        self._past.append((center_of_pressure.copy(), self.period * speed))
-        if away == 0.0:
-            return np.zeros(2)
-        return self.period * speed / away * np.array([dy, -dx])
 
 
 class GroundConformity:
@@ -181,11 +181,10 @@ class GroundConformity:
             cop = percepts[side].position_cop_in_sole
             if cop is None or load < self.gains.least_load:
                 continue
-            position = state.positions_sole[side]
             rotation = state.rotations_sole[side]
             contacts.update(percepts[side].reading, rotation, cop)
             if phase.stance == side:
-                target = rotation[:2, :2].T @ (zmp_desired - position[:2])
+                target = _along_sole(rotation, state.positions_sole[side], zmp_desired)
                 # Once the other foot is down, the desired ZMP may lie beyond this sole: no turn brings the load there.
                 if self.turns_stance and side not in parts and not landed and not contacts.encloses(target):
                     turned[side] = SoleTurn(turns.stance(load, cop, target), _ORIGIN)
@@ -197,3 +196,14 @@ class GroundConformity:
                     continue
             turns.hold(cop)
         return turned
+
+
+def _along_sole(
+    rotation: NDArray[np.float64], position: NDArray[np.float64], point: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Way (2,) in m from a sole's origin to a point (2,) in the world, along the sole's axes seen from above."""
+    xx, xy, _, yx, yy, _, _, _, _ = rotation.ravel().tolist()
+    x, y = point.tolist()
+    dx = x - position.item(0)
+    dy = y - position.item(1)
+    return vector2(xx * dx + yx * dy, xy * dx + yy * dy)

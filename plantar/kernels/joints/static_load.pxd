@@ -14,4 +14,8 @@ cdef class StaticLoad:
     cpdef void weigh(self) noexcept
     @cython.locals(rows="double[:, ::1]")
     cpdef void less(self, PointRows lever, force, double x, double y, double z) except *
+    @cython.locals(pressing=double, other=double)
+    cpdef double stand(
+        self, tuple levers, left, left_point, left_place, right, right_point, right_place
+    ) except? -1.0
     cpdef void take(self) noexcept

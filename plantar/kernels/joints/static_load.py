@@ -70,6 +70,29 @@ class StaticLoad:
         for v in range(self.load.shape[0]):
             self.load[v] -= numbers[0] * rows[0, v] + numbers[1] * rows[1, v] + numbers[2] * rows[2, v]
 
+    def stand(self, levers, left, left_point, left_place, right, right_point, right_place):
+        """Write the loads of a robot on its soles.
+
+        `levers`: `PointRows` of the left and right sole; `left`: ground force (3,) in N on the left sole, none where it
+        does not press; `left_point`: point (2,) in m where it acts, at the height of `left_place` (3,) in m; the right
+        one's likewise. Returns the left sole's share of the vertical force.
+        """
+        self.weigh()
+        pressing = memory.values(left)[2]
+        if pressing > 0.0:
+            point = memory.values(left_point)
+            self.less(levers[0], left, point[0], point[1], memory.values(left_place)[2])
+        else:
+            pressing = 0.0
+        other = memory.values(right)[2]
+        if other > 0.0:
+            point = memory.values(right_point)
+            self.less(levers[1], right, point[0], point[1], memory.values(right_place)[2])
+        else:
+            other = 0.0
+        self.take()
+        return pressing / (pressing + other) if pressing + other > 0.0 else 0.5
+
     def take(self):
         """Write the loads of the joints."""
         for k in range(self.places.shape[0]):

@@ -12,6 +12,8 @@ cdef class PerceptFields:
     cdef tuple _found
     cdef bint _compared
     cdef _fill(self, kernel, layout, reading, force_threshold, active, stuck, options, bint compared)
+    @cython.locals(vertical=double)
+    cpdef _fill_summed(self, layout, reading, usual, loads)
     cpdef _active_above(self)
     cpdef _loads(self)
     cpdef _wrench(self)
@@ -23,4 +25,5 @@ cdef double _LARGEST
 
 cdef class ReadingFields:
     cdef readonly object time, force, proximity, temperature, acceleration
+    cpdef _take_over(self, time, force, proximity)
     cdef _fill(self, time, force, proximity, temperature, acceleration)

@@ -44,8 +44,19 @@ class PerceptFields:
         self._summed = None
         self._found = None
 
-    def _take_loads(self, loads):
+    def _fill_summed(self, layout, reading, usual, loads):
+        """`_keep` with the layout's threshold and known loads, which are closed to writing, and what follows from
+        them.
+        """
+        kernel = layout.kernel
+        memory.close(loads)
+        self._fill(kernel, layout, reading, kernel.threshold, None, None, usual, True)
         self._summed = loads
+        vertical = memory.values(loads)[2]
+        known = self.__dict__  # where lazy members look first
+        known["vertical_force"] = float(vertical)
+        known["wrench_in_sole"] = loads[:6]
+        known["position_cop_in_sole"] = loads[7:] if 0.0 < vertical < _INFINITE else None
 
     def _active_above(self):
         """Mask (n,) of taxels above the threshold; None if more decides."""
@@ -114,6 +125,13 @@ class ReadingFields:
 
     def _keep(self, time, force, proximity, temperature, acceleration):
         self._fill(time, force, proximity, temperature, acceleration)
+
+    def _take_over(self, time, force, proximity):
+        """Fields of a reading of arrays that were made for it; closed to writing."""
+        memory.close(force)
+        if proximity is not None:
+            memory.close(proximity)
+        self._fill(time, force, proximity, None, None)
 
     def _fill(self, time, force, proximity, temperature, acceleration):
         if cython.compiled:

@@ -40,14 +40,13 @@ def follow_command(legs: LegModel, command: Command) -> float:
     )
 
 
-def carry_command(legs: LegModel, command: Command) -> None:
-    """Torques that hold the last solution under a command's forces: `legs.torques`."""
+def carry_command(legs: LegModel, command: Command) -> float:
+    """Torques that hold the last solution under a command's forces: `legs.torques`.
+
+    Returns the left sole's share of the vertical force.
+    """
     left = command.feet["left"]
     right = command.feet["right"]
-    legs.carry(
-        {"left": left.force, "right": right.force},
-        {
-            "left": (*left.center_of_pressure.tolist(), left.position.item(2)),
-            "right": (*right.center_of_pressure.tolist(), right.position.item(2)),
-        },
+    return legs.carry_soles(
+        (left.force, left.center_of_pressure, left.position), (right.force, right.center_of_pressure, right.position)
     )

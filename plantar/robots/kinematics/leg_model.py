@@ -81,6 +81,7 @@ class LegModel:
             *(self._dof.astype(np.intp), self.torques),
         )
         self._levers = [(s, _lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
+        self._both_levers = tuple(lever for _, lever in self._levers)
         self.rows = np.concatenate([np.arange(6), self._dof]).astype(np.intp)
         self._inertial = np.zeros(model.nv)
         data = self._data
@@ -200,6 +201,24 @@ class LegModel:
             if force.item(2) > 0.0:
                 load.less(lever, force, *points[side])
         load.take()
+
+    def carry_soles(
+        self,
+        left: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
+        right: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
+    ) -> float:
+        """`carry` with the ground force (3,) in N on each sole, the point (2,) in m where it acts, and the sole's
+        position (3,) in m, all in the world frame, at whose height that point is.
+
+        Returns the left sole's share of the vertical force.
+        """
+        self.inverse.place()
+        levers = self._both_levers
+        try:
+            return float(self._load.stand(levers, *left, *right))
+        except ValueError:  # an array is of other strides or numbers than the kernel takes
+            given = (np.ascontiguousarray(array, dtype=np.float64) for array in (*left, *right))
+            return float(self._load.stand(levers, *given))
 
     def add_motion(
         self,

@@ -48,8 +48,5 @@ class PlannedMotion:
 
     def carry(self, command: Command) -> None:
         """Torques of the last solution under a `command`'s forces and of its motion: the legs' `torques`."""
-        carry_command(self._legs, command)
-        left = max(command.feet["left"].force.item(2), 0.0)
-        right = max(command.feet["right"].force.item(2), 0.0)
-        share = left / (left + right) if left + right > 0.0 else 0.5
+        share = carry_command(self._legs, command)
         self._legs.add_motion(self.velocity, self.acceleration, share, command.momentum, self._whole)

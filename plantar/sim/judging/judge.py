@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, other_side
 from plantar.gait.plan.plan_change import MovedStep
+from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.kernels.contacts.ground_reaction import GroundReaction
 from plantar.kernels.judging.estimate_error import EstimateError
 from plantar.kernels.judging.step_watch import FALLING, LEGS, OTHERS, OUTSIDE, StepWatch
@@ -91,7 +92,8 @@ class Judge:
 
     `standing_height`: CoM above the ground at the start in m; `ground`: None where all is plain; `learns`: whether
     pushes change all later steps; `actors`: those that push in the scene; `pieces`: of the ground, after
-    `follow_pieces`; `fall`: the fall as (criterion's value, limit, text), or None.
+    `follow_pieces`; `fall`: the fall as (criterion's value, limit, text), or None; `feet`: contacts
+    of both soles after the last physics step, None before the first.
     """
 
     world: World
@@ -102,6 +104,7 @@ class Judge:
     actors: Sequence[Actor] = ()
     pieces: GroundPieces | None = None
     fall: tuple[float, float, str] | None = None
+    feet: tuple[FootContacts, ...] | None = None
 
     def __post_init__(self) -> None:
         world = self.world
@@ -191,9 +194,12 @@ class Judge:
 
     def step(self) -> int:
         """Take in a physics step; returns what `StepWatch.step` reports."""
-        feet = self._contacts.read()
-        self.outside.expect()
-        seen: int = self._watch.step(feet, self.world.data.ncon)
+        contacts = self._contacts
+        feet = contacts.read()
+        self.feet = feet
+        if self.actors:
+            self.outside.expect()
+        seen: int = self._watch.step(feet, contacts.count)
         if self.pieces is not None:
             self.pieces.loads.step(feet)
         if seen:

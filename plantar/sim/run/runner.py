@@ -195,7 +195,7 @@ class Simulation(Run):
 
     def sense(self, k: int) -> None:
         if k % self.sensors.skin_every == 0:
-            self.sensors.read_skins(self.controller.proximity_sides, self._everything)
+            self.sensors.read_skins(self.controller.proximity_sides, self._everything, self.judge.feet)
             if self._log is not None:
                 self._log.skin(self.sensors.readings)
 

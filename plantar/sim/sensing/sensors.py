@@ -84,15 +84,21 @@ class SensorSuite:
         self.body_skin: Callable[[], Reading] | None = None
         self.body_links: Callable[[], Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]] | None = None
 
-    def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[FootContacts, ...]:
+    def read_skins(
+        self,
+        near: Collection[Side] = SIDES,
+        everything: bool = False,
+        contacts: tuple[FootContacts, ...] | None = None,
+    ) -> tuple[FootContacts, ...]:
         """Read the soles, every `skin_every` physics steps.
 
-        `everything`: measure all; same readings. Returns the contacts of both soles.
+        `everything`: measure all; same readings; `contacts` of the left and right sole after the last physics step,
+        where they have been read already. Returns the contacts of both soles.
         """
         data = self._world.data
-        feet = self._contacts.read()
-        for side, contacts in zip(SIDES, feet, strict=True):
-            self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
+        feet = self._contacts.read() if contacts is None else contacts
+        for side, foot in zip(SIDES, feet, strict=True):
+            self.readings[side] = self.skins[side].read(data, foot, near=side in near, everything=everything)
         return feet
 
     def read_body(self) -> Sensors:
@@ -113,15 +119,14 @@ class SensorSuite:
             gyro=gyro,
             accelerometer=specific,
             readings=dict(self.readings),
-            ankles=self._ankles(),
+            ankles={} if self._ankle_noise is None else self._ankles(),
             skin=None if self.body_skin is None else self.body_skin(),
             links={} if self.body_links is None else self.body_links(),
         )
 
     def _ankles(self) -> dict[Side, NDArray[np.float64]]:
-        """Wrench (6,) of each foot in the sensor's frame; empty without sensors."""
-        if self._ankle_noise is None:
-            return {}
+        """Wrench (6,) of each foot in the sensor's frame."""
+        assert self._ankle_noise is not None
         s = self._sensing
         data = self._world.data.sensordata
         wrenches: dict[Side, NDArray[np.float64]] = {}
