@@ -124,9 +124,28 @@ class _Workspace:
         self.lower = np.full(_ROWS * count, -1e30)
         self.contacts: list[Contact | None] = [None] * count
         self.solver: daqp.Model | None = None
+        # since the solver had them: other contacts' limits, another Hessian
+        self.limited = False
+        self.changed = False
         scales = (weight, length, weights.net, weights.pressure, weights.horizontal)
         filled = (self.fixed, self.hessian, self.wanted, self.gradient)
         self.program = WrenchProgram(scales, self.unit, self.jacobian, *filled)
+
+    def loaded_solver(self) -> daqp.Model:
+        """The solver with the present program."""
+        if self.solver is None:
+            self.solver = daqp.Model()
+            self.solver.settings = {"primal_tol": 1e-10}
+            self.solver.setup(self.hessian, self.gradient, self.constraints, self.upper, self.lower)
+        elif self.limited:  # its bounds never change: only the least force differs from 0
+            self.solver.update(H=self.hessian, f=self.gradient, A=self.constraints)
+        elif self.changed:
+            self.solver.update(H=self.hessian, f=self.gradient)
+        else:
+            self.solver.update(f=self.gradient)
+        self.limited = False
+        self.changed = False
+        return self.solver
 
     def forget(self) -> None:
         """Drop the state, after a request that is not finite."""
@@ -183,9 +202,11 @@ class WrenchDistribution:
         wished = _in_order(contacts, shares)
         if not self._prepare(work, contacts, wrench, point, wished):
             return self._rest(contacts, wished)
-        solver = work.solver
-        assert solver is not None
-        scaled, _, flag, _ = solver.solve()
+        # Mostly the least cost lies inside the cones, and no inequality is active.
+        scaled = work.program.least_cost(work.constraints, work.upper)
+        flag = 1
+        if scaled is None:
+            scaled, _, flag, _ = work.loaded_solver().solve()
         state = DistributionState.TRACKED
         violation = 0.0
         if flag < 1:
@@ -239,7 +260,7 @@ class WrenchDistribution:
         point: NDArray[np.float64] | Sequence[float],
         shares: tuple[float, ...],
     ) -> bool:
-        """Fill workspace and solver; False for an invalid request."""
+        """Fill the workspace; False for an invalid request."""
         program = work.program
         if not program.ask(_plain(wrench), _plain(point), shares):
             return False
@@ -268,16 +289,8 @@ class WrenchDistribution:
         program.aim()
         work.wanted.dot(work.jacobian, out=work.gradient)
         program.finish_gradient()
-        if work.solver is None:
-            work.solver = daqp.Model()
-            work.solver.settings = {"primal_tol": 1e-10}
-            work.solver.setup(work.hessian, work.gradient, work.constraints, work.upper, work.lower)
-        elif limited:  # its bounds never change: only the least force differs from 0
-            work.solver.update(H=work.hessian, f=work.gradient, A=work.constraints)
-        elif changed:
-            work.solver.update(H=work.hessian, f=work.gradient)
-        else:
-            work.solver.update(f=work.gradient)
+        work.limited = work.limited or limited
+        work.changed = work.changed or changed
         return True
 
     def _constrain(self, work: _Workspace, i: int, contact: Contact) -> None:

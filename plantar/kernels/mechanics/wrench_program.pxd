@@ -13,6 +13,8 @@ cdef class WrenchProgram:
     cdef double[:, ::1] positions
     cdef double[:, :, ::1] rotations
     cdef double[::1] wished, shares, request, middle
+    cdef double[:, ::1] factor
+    cdef bint factored
     @cython.locals(
         share=double, total=double, some=double, fx=double, fy=double, fz=double, tx=double, ty=double, tz=double,
         px=double, py=double, pz=double
@@ -27,5 +29,9 @@ cdef class WrenchProgram:
     cdef void _level(self, Py_ssize_t i, Py_ssize_t j, double cost) noexcept
     cpdef void aim(self) noexcept
     cpdef void finish_gradient(self) noexcept
+    @cython.locals(total=double)
+    cpdef least_cost(self, const double[:, ::1] constraints, const double[::1] upper)
+    @cython.locals(total=double)
+    cdef bint _factorise(self) noexcept
     @cython.locals(i=Py_ssize_t, off=double, largest=double)
     cpdef tuple finish(self, unknowns, names)

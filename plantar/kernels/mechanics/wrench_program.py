@@ -38,6 +38,8 @@ class WrenchProgram:
         self.shares = np.zeros(count)
         self.request = np.zeros(9)
         self.middle = np.zeros(3)
+        self.factor = np.zeros((len(unit), len(unit)))
+        self.factored = False
 
     def ask(self, wrench, point, shares):
         """Set a request; returns whether it is finite, with some share above 0.
@@ -126,6 +128,7 @@ class WrenchProgram:
             shares[i] = self.wished[i]
         if not renewed:
             return False
+        self.factored = False
         for a in range(6 * count):
             for b in range(6 * count):
                 hessian[a, b] = self.fixed[a, b]
@@ -185,6 +188,52 @@ class WrenchProgram:
         """Multiply wanted wrench times Jacobian by its factor, minus the net wrench's cost."""
         for i in range(self.gradient.shape[0]):
             self.gradient[i] *= -self.net
+
+    def least_cost(self, constraints, upper):
+        """Unknowns (6 n,) of the least cost where they meet constraints (m, 6 n) with upper bounds (m,), in the
+        program's units; None where one is violated, or the Hessian is singular.
+        """
+        count = self.gradient.shape[0]
+        factor = self.factor
+        if not self.factored and not self._factorise():
+            return None
+        found = memory.new_vector(count)
+        v = memory.room(found)
+        for i in range(count):
+            total = -self.gradient[i]
+            for j in range(i):
+                total -= factor[i, j] * v[j]
+            v[i] = total / factor[i, i]
+        for i in range(count - 1, -1, -1):
+            total = v[i]
+            for j in range(i + 1, count):
+                total -= factor[j, i] * v[j]
+            v[i] = total / factor[i, i]
+        for k in range(upper.shape[0]):
+            total = 0.0
+            for i in range(count):
+                total += constraints[k, i] * v[i]
+            if not total <= upper[k]:
+                return None
+        return found
+
+    def _factorise(self):
+        """Cholesky factor of the Hessian, once for each; returns whether it is regular."""
+        hessian = self.hessian
+        factor = self.factor
+        for i in range(hessian.shape[0]):
+            for j in range(i + 1):
+                total = hessian[i, j]
+                for k in range(j):
+                    total -= factor[i, k] * factor[j, k]
+                if i > j:
+                    factor[i, j] = total / factor[j, j]
+                elif total > 0.0:
+                    factor[i, i] = math.sqrt(total)
+                else:
+                    return False
+        self.factored = True
+        return True
 
     def finish(self, unknowns, names):
         """Largest error of a solution (6 n,) in the program's units, NaN if any; net wrench (6,) less the wanted in N
