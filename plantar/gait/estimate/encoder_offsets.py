@@ -15,7 +15,7 @@ from plantar.common.sides import SIDES, Side
 from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector, sine_vector
 
 _STEP = 1e-4  # rad of a joint over which its effect on the soles is differenced; their motion is nearly linear
-_ITERATIONS = 3  # Gauss-Newton steps; offsets of a degree are found to 1e-9 rad by the second one
+_ITERATIONS = 2  # Gauss-Newton steps; offsets of a degree are found to 1e-9 rad by the second one
 
 
 class _Posture(Protocol):
@@ -24,6 +24,11 @@ class _Posture(Protocol):
 
     @property
     def rotations(self) -> Mapping[Side, NDArray[np.float64]]: ...
+
+
+SoleMotions = Callable[[NDArray[np.float64]], tuple[NDArray[np.float64], NDArray[np.float64]]]
+"""Maps joint positions (k,) in rad to each sole's velocity in m and angular velocity in rad for a joint that turns by 1
+rad, (2, 3, k) both, left sole first, base frame."""
 
 
 class StandingTolerances(NamedTuple):
@@ -44,18 +49,23 @@ def encoder_offsets(
     up: NDArray[np.float64],
     feet: Mapping[Side, tuple[float, float, float, float]],
     tolerances: StandingTolerances,
+    motions: SoleMotions | None = None,
 ) -> NDArray[np.float64]:
     """Most probable reading less true angle (k,) in rad.
 
     `kinematics`: maps joint positions (k,) in rad to each sole's position (3,) in m and rotation (3, 3), base frame;
     `joint_positions`: mean encoders (k,) in rad; `up`: unit vector (3,) against gravity, base frame; `feet`: soles: x,
-    y, z in m and heading in rad.
+    y, z in m and heading in rad; `motions`: how the soles move with the joints; None differences the kinematics, at
+    one call a joint.
     """
     k = len(joint_positions)
     offsets = np.zeros(k)
     rotation, position = standing_base(kinematics(joint_positions), up, feet)
     for _ in range(_ITERATIONS):
-        places, turns, moved, turned = _differenced(kinematics, joint_positions - offsets)
+        joints = joint_positions - offsets
+        places, turns, moved, turned = (
+            _differenced(kinematics, joints) if motions is None else _moving(kinematics, motions, joints)
+        )
         rows = np.zeros((14 + k, k + 6))
         errors = np.zeros(14 + k)
         for i, side in enumerate(SIDES):
@@ -79,7 +89,8 @@ def encoder_offsets(
         errors[12:14] = above[:2] / tolerances.turn
         rows[14:, :k] = np.eye(k) / tolerances.offset
         errors[14:] = offsets / tolerances.offset
-        step = np.asarray(np.linalg.lstsq(rows, -errors, rcond=None)[0], dtype=np.float64)
+        # The prior of the offsets and two feet make all columns independent: the normal equations are regular.
+        step = np.asarray(np.linalg.solve(rows.T @ rows, -(rows.T @ errors)), dtype=np.float64)
         offsets = offsets + step[:k]
         rotation = orthonormalised(rotation_from_vector(step[k : k + 3]) @ rotation)
         position = position + step[k + 3 :]
@@ -102,6 +113,16 @@ def standing_base(
     rotation = level_rotation(math.atan2(sum(map(math.sin, turns)), sum(map(math.cos, turns)))) @ level
     places = [np.array(feet[side][:3]) - rotation @ posture.positions[side] for side in SIDES]
     return rotation, np.mean(places, axis=0)
+
+
+def _moving(
+    kinematics: Callable[[NDArray[np.float64]], _Posture], motions: SoleMotions, joints: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """As `_differenced`, by the soles' own motions."""
+    posture = kinematics(joints)
+    places = np.array([posture.positions[side] for side in SIDES])
+    turns = np.array([posture.rotations[side] for side in SIDES])
+    return places, turns, *motions(joints)
 
 
 def _differenced(

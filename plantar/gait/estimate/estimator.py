@@ -77,6 +77,15 @@ class LiveKinematics(LegKinematics, Protocol):
         ...
 
 
+@runtime_checkable
+class MovingKinematics(LegKinematics, Protocol):
+    """Kinematics that know how the soles move with the joints."""
+
+    def sole_motions(self, joint_positions: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Returns what `encoder_offsets.SoleMotions` does, at joint positions (k,) in rad."""
+        ...
+
+
 def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]], Posture]:
     """A model's fastest kinematics, for callers that keep no posture."""
     return kinematics.live_posture if isinstance(kinematics, LiveKinematics) else kinematics.posture

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from plantar.common.sides import Side
 from plantar.gait.estimate.com_offset import com_offset
 from plantar.gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
-from plantar.gait.estimate.estimator import LegKinematics, Posture, SoleLoad, live_kinematics
+from plantar.gait.estimate.estimator import LegKinematics, MovingKinematics, Posture, SoleLoad, live_kinematics
 from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.opening_stand import OpeningStand
 
@@ -45,6 +45,7 @@ class IdentifiedBody:
         self._weight = weight
         self._kinematics = kinematics
         self._live_posture = live_kinematics(kinematics)
+        self._motions = kinematics.sole_motions if isinstance(kinematics, MovingKinematics) else None
         # whether encoders, and the CoM, are known to differ from the model
         self._reads_off = False
         self._lies_off = False
@@ -96,7 +97,9 @@ class IdentifiedBody:
         self.encoder_offsets = np.zeros(len(stood.joint_positions))
         if rules.encoders:
             tolerances = StandingTolerances(rules.encoder_error, rules.place_error, rules.turn_error)
-            found = encoder_offsets(self._live_posture, stood.joint_positions, stood.up, self._feet, tolerances)
+            found = encoder_offsets(
+                self._live_posture, stood.joint_positions, stood.up, self._feet, tolerances, self._motions
+            )
             # What noise explains stays out: it would turn the soles of a robot that equals its model, permanently.
             if float(np.sqrt(np.mean(found**2))) > rules.encoder_least:
                 self.encoder_offsets = _limited(found, float(np.abs(found).max()), rules.encoder_largest)

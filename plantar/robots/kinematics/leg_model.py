@@ -124,6 +124,15 @@ class LegModel:
         mujoco.mj_comPos(self.model, data)
         return self._posture
 
+    def sole_motions(self, joint_positions: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """How the soles move with the joints (see `plantar.gait.estimate.estimator.MovingKinematics`)."""
+        self.live_posture(joint_positions)
+        moved = np.zeros((2, 3, self.model.nv))
+        turned = np.zeros((2, 3, self.model.nv))
+        for i, side in enumerate(SIDES):
+            mujoco.mj_jacSite(self.model, self._probe, moved[i], turned[i], self._sites[side])
+        return moved[:, :, self._dof], turned[:, :, self._dof]
+
     def set_configuration(
         self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
     ) -> None:

@@ -237,3 +237,19 @@ def test_legs_without_ankle_roll_leave_the_roll_of_their_soles(h1, seed):
         assert place.xpos == pytest.approx(positions[side], abs=1e-8)
         # The sole's x axis is where it shall be; it may have rolled about it.
         assert place.xmat.reshape(3, 3)[:, 0] == pytest.approx(rotations[side][:, 0], abs=1e-7)
+
+
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+def test_soles_move_as_their_poses_differ(robot):
+    legs = build_leg_model(load_robot(robot))
+    rng = np.random.default_rng(3)
+    joints = rng.uniform(-0.4, 0.4, len(legs.joints))
+    moved, turned = legs.sole_motions(joints)
+    step = 1e-6
+    for joint in range(len(joints)):
+        ahead, back = (legs.posture(joints + sign * step * np.eye(len(joints))[joint]) for sign in (1.0, -1.0))
+        for i, side in enumerate(SIDES):
+            velocity = (ahead.positions[side] - back.positions[side]) / (2.0 * step)
+            turn = Rotation.from_matrix(ahead.rotations[side] @ back.rotations[side].T).as_rotvec() / (2.0 * step)
+            np.testing.assert_allclose(moved[i, :, joint], velocity, atol=1e-8)
+            np.testing.assert_allclose(turned[i, :, joint], turn, atol=1e-8)
