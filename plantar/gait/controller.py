@@ -5,7 +5,6 @@
 The swing foot comes first, since most proposals follow from its touchdown.
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -35,6 +34,7 @@ from plantar.gait.tick.foot_targets import FootTargets
 from plantar.gait.tick.footing import Footing
 from plantar.gait.tick.proposers import proposers
 from plantar.kernels import need_compiled
+from plantar.kernels.safety.plausible import away_from_feet
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 
@@ -209,13 +209,9 @@ class WalkingController:
 
     def _is_lost(self, command: Command) -> bool:
         """Whether the CoM is farther from the feet than high."""
-        left = command.feet["left"].position
-        right = command.feet["right"].position
-        x, y, _ = command.com.tolist()
-        lx, ly, _ = left.tolist()
-        rx, ry, _ = right.tolist()
-        away = math.hypot(x - 0.5 * (lx + rx), y - 0.5 * (ly + ry))
-        return away > self.settings.com_height
+        feet = command.feet
+        away = away_from_feet(command.com, feet["left"].position, feet["right"].position)
+        return bool(away > self.settings.com_height)
 
     def _tick(self, sensors: Sensors) -> Command:
         """A tick with encoders and IMU."""

@@ -1,13 +1,13 @@
 """The contacts of feet, as MuJoCo lists them after a step."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.contacts.foot_contacts import ContactList, FootContacts, gather_feet
+from plantar.kernels.contacts.foot_contacts import ContactList, FeetReader, FootContacts, gather_feet
 
 REACH = 5e-4
 """Largest gap in m between sole and ground that still counts as contact: what the rubber sole of H1 gives."""
@@ -18,7 +18,8 @@ _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
 class ContactReader:
     """Gathers the contacts of several feet of one simulation.
 
-    `feet`: ids of each foot's geoms. Attribute `count`: contacts of all bodies at the last `read`.
+    `feet`: ids of each foot's geoms. Attribute `read`: returns each foot's contacts after the last `mj_step` or
+    `mj_forward`, in reused objects.
     """
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
@@ -29,31 +30,27 @@ class ContactReader:
         for mask, geom_ids in zip(own, feet, strict=True):
             mask[list(geom_ids)] = 1
         self._feet = tuple(FootContacts(mask) for mask in own)
-        self._options = self._model.opt
-        self._cone = self._options.cone
-        self._sticks = bool(getattr(self._model, "flg_adhesion", False))  # of geoms, since MuJoCo 4
-        self._lists: dict[int, ContactList] = {}
-        self.count = 0
+        self._kernel = FeetReader(self._data, self._model.opt, self._feet, self._listed)
+        self.read: Callable[[], tuple[FootContacts, ...]] = self._kernel.read
+        if getattr(self._model, "flg_adhesion", False):  # of geoms, since MuJoCo 4
+            self.read = self._read_sticking
 
-    def read(self) -> tuple[FootContacts, ...]:
-        """Each foot's contacts after the last `mj_step` or `mj_forward`, in reused objects."""
-        data = self._data
-        n = data.ncon
-        self.count = n
-        if not n:
-            for foot in self._feet:
-                foot.clear()
-            return self._feet
-        if self._options.cone != self._cone:
-            self._cone = self._options.cone
-            self._lists.clear()
-        listed = self._lists.get(n)
-        if listed is None:
-            c = data.contact
-            friction = c.friction if self._cone != _ELLIPTIC else None
-            listed = ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)
-            self._lists[n] = listed
-        gather_feet(self._feet, listed, _net_forces(data, self._cone) if self._sticks else data.efc_force)
+    @property
+    def count(self) -> int:
+        """Contacts of all bodies at the last `read`."""
+        return int(self._kernel.count)
+
+    def _listed(self) -> ContactList:
+        c = self._data.contact
+        friction = c.friction if self._model.opt.cone != _ELLIPTIC else None
+        return ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)
+
+    def _read_sticking(self) -> tuple[FootContacts, ...]:
+        """`read` of geoms that stick, whose forces are less their adhesion."""
+        feet = self._kernel.read()
+        count = self._kernel.count
+        if count:
+            gather_feet(feet, self._kernel.of_present(count), _net_forces(self._data, self._model.opt.cone))
         return self._feet
 
 

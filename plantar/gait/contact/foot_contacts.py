@@ -182,12 +182,17 @@ class FootContacts:
         """Returns sides of `feet` (commanded), left first, that take weight over in a `phase` at a `time` in s, or
         landed and wait for it.
         """
-        early = phase.kind == PhaseKind.SINGLE_SUPPORT and time < phase.start + self._settings.watch
+        swing = phase.swing
+        carrying = phase.kind == PhaseKind.DOUBLE_SUPPORT
+        if phase.kind == PhaseKind.SINGLE_SUPPORT:
+            carrying = time < phase.start + self._settings.watch
+        landed = feet.landed
+        if not carrying and not (landed and swing is not None):
+            return []
         sides: list[Side] = []
-        for side in SIDES:
-            step = self._feet[side].step
-            taking_over = step == phase.step - 1 and (phase.kind == PhaseKind.DOUBLE_SUPPORT or early)
-            if step is not None and (taking_over or (phase.swing == side and feet.landed)):
+        for side, foot in self._feet.items():
+            step = foot.step
+            if step is not None and ((carrying and step == phase.step - 1) or (landed and swing == side)):
                 sides.append(side)
         return sides
 

@@ -64,12 +64,18 @@ class FaultLog:
             readings = sensors.readings
             phase = command.phase
             feet = command.feet
+            if type(readings) is dict:
+                left = getattr(readings.get("left"), "force", None)
+                right = getattr(readings.get("right"), "force", None)
+            else:
+                left = _force(readings, "left")
+                right = _force(readings, "right")
             fields = (
                 joints,
                 sensors.gyro,
                 sensors.accelerometer,
-                _force(readings, "left"),
-                _force(readings, "right"),
+                left,
+                right,
                 command.com,
                 feet["left"].position,
                 feet["right"].position,
@@ -126,7 +132,5 @@ class FaultLog:
 
 def _force(readings: Any, side: Side) -> object:
     """Forces of a side's reading as they are; None where there is none."""
-    if type(readings) is not dict and not isinstance(readings, Mapping):
-        return None
-    reading = readings.get(side)
+    reading = readings.get(side) if isinstance(readings, Mapping) else None
     return getattr(reading, "force", None)

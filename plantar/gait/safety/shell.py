@@ -21,7 +21,7 @@ from plantar.gait.safety.fault_log import FaultLog
 from plantar.gait.safety.safe_stop import SITS, SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
 from plantar.gait.safety.tick_clock import TickClock
-from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
+from plantar.kernels.safety.plausible import BodyCheck, SoleCheck, height_of_upright
 from plantar.kernels.safety.tracking import TrackingCheck
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
@@ -406,13 +406,12 @@ class SafetyShell:
         return found
 
     def _is_fallen(self) -> bool:
-        state = self._last.state
         if not self._begun:
             return False
-        left = state.positions_sole["left"].item(2)
-        right = state.positions_sole["right"].item(2)
-        height = state.com.item(2) - min(left, right)
-        return state.rotation_base_to_world.item(8) < _FALLEN or height < _FALLEN * self._height
+        state = self._last.state
+        soles = state.positions_sole
+        height = height_of_upright(state.rotation_base_to_world, state.com, soles["left"], soles["right"], _FALLEN)
+        return bool(height < _FALLEN * self._height)
 
 
 def _sound(readings: Readings, side: Side, count: int) -> Reading | None:

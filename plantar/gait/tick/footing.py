@@ -117,7 +117,7 @@ class Footing:
             senses = {i: SoleSense(percepts[i], state.positions_sole[i], state.rotations_sole[i]) for i in SIDES}
         target = None if phase.swing is None else self._plan.view.foothold(phase.step)
         if phase.kind == PhaseKind.STANDING:  # feet relax then
-            heights = {i: state.positions_sole[i].item(2) for i in SIDES}
+            heights = {side: place.item(2) for side, place in state.positions_sole.items()}
         motion.update(phase, sensed.time, target, state.loads, self.frame, senses, self._press(), heights)
         feet = motion.view
         if feet.touchdown and feedback:
@@ -194,9 +194,9 @@ class Footing:
             plan=self._plan.view,
             feet=feet,
             frame=self.frame.now(),
-            readings={side: percept.reading for side, percept in percepts.items()},
+            readings={"left": percepts["left"].reading, "right": percepts["right"].reading},
             loads=state.loads,
-            moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
+            moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()} if sensed.ankles else {},
             found=found,
             seen=seen,
             pendulum=pendulum,

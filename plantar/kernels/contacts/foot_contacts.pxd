@@ -14,6 +14,17 @@ cdef class ContactList:
 cpdef int gather_feet(tuple feet, ContactList listed, const double[:] forces) except -1
 
 @cython.final
+cdef class FeetReader:
+    cdef object data, options, listed, cone
+    cdef tuple feet
+    cdef dict lists
+    cdef readonly Py_ssize_t count
+    @cython.locals(count=Py_ssize_t, foot=FootContacts)
+    cpdef tuple read(self)
+    @cython.locals(listed=ContactList)
+    cpdef ContactList of_present(self, count)
+
+@cython.final
 cdef class FootContacts:
     cdef const unsigned char[::1] own
     cdef readonly Py_ssize_t size

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-__all__ = ["ContactList", "ContactsInSole", "FootContacts", "gather_feet"]
+__all__ = ["ContactList", "ContactsInSole", "FeetReader", "FootContacts", "gather_feet"]
 
 
 class ContactList:
@@ -33,6 +33,51 @@ def gather_feet(feet, listed, forces):
     """Gather the contacts of several feet. `forces`: forces in N and torques in N m of all contacts."""
     for foot in feet:
         foot.gather(listed, forces)
+
+
+class FeetReader:
+    """Gathers the contacts of several feet from a simulation's data after each of its steps.
+
+    Attribute `count`: contacts of all bodies at the last `read`.
+
+    Args:
+        data: Simulation's data: `ncon` contacts, with `efc_force` of all.
+        options: Its options; contacts are listed again where their `cone` changes.
+        feet: `FootContacts` of each foot.
+        listed: Makes the `ContactList` of the present contacts, which stays valid for their number.
+    """
+
+    def __init__(self, data, options, feet, listed):
+        self.data = data
+        self.options = options
+        self.feet = feet
+        self.listed = listed
+        self.lists = {}
+        self.cone = options.cone
+        self.count = 0
+
+    def read(self):
+        """Each foot's contacts after the last step, in reused objects."""
+        count = self.data.ncon
+        self.count = count
+        if count == 0:
+            for foot in self.feet:
+                foot.clear()
+            return self.feet
+        gather_feet(self.feet, self.of_present(count), self.data.efc_force)
+        return self.feet
+
+    def of_present(self, count):
+        """`ContactList` of so many contacts."""
+        cone = self.options.cone
+        if cone != self.cone:
+            self.cone = cone
+            self.lists.clear()
+        listed = self.lists.get(count)
+        if listed is None:
+            listed = self.listed()
+            self.lists[count] = listed
+        return listed
 
 
 class FootContacts:

@@ -1,7 +1,12 @@
 cimport cython
 from ..base cimport pointers as memory
 
-cdef double _FAST, _TURNED, _SPIN, _SHOCK
+from libc cimport math
+
+cdef double _INFINITE, _FAST, _TURNED, _SPIN, _SHOCK
+
+cpdef double away_from_feet(com, left, right) except? -1.0
+cpdef double height_of_upright(rotation, com, left, right, double least) except? -1.0
 
 @cython.final
 cdef class BodyCheck:

@@ -6,8 +6,9 @@ import numpy as np
 
 from ..base import memory
 
-__all__ = ["BodyCheck", "SoleCheck", "TargetMoves"]
+__all__ = ["BodyCheck", "SoleCheck", "TargetMoves", "away_from_feet", "height_of_upright"]
 
+_INFINITE = float("inf")
 _FAST = 0.25  # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz
 _TURNED = 12.0  # rad: beyond, no joint of a leg has an angle
 _SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
@@ -192,6 +193,23 @@ class TargetMoves:
                 near = False
             kept[begin + i] = now[i]
         return near
+
+
+def away_from_feet(com, left, right):
+    """Horizontal distance in m of a CoM (3,) in m from the middle of two soles (3,) in m."""
+    c = memory.values(com)
+    p = memory.values(left)
+    q = memory.values(right)
+    return math.hypot(c[0] - 0.5 * (p[0] + q[0]), c[1] - 0.5 * (p[1] + q[1]))
+
+
+def height_of_upright(rotation, com, left, right, least):
+    """Height in m of a CoM (3,) in m above the lower of two soles (3,) in m; -inf for a trunk with rotation (3, 3) to
+    the world whose tilt has a cosine below `least`.
+    """
+    if memory.values(rotation)[8] < least:
+        return -_INFINITE
+    return memory.values(com)[2] - min(memory.values(left)[2], memory.values(right)[2])
 
 
 def _total(force, count):

@@ -22,6 +22,13 @@ cdef class SensedBody:
     cpdef tuple read(self)
     cdef void _take(self, Py_ssize_t row) noexcept
 
+@cython.final
+cdef class SampleClock:
+    cdef double period, near, start
+    cdef long taken
+    cpdef int begin(self, double now) except -1
+    cpdef bint due(self, double now) noexcept
+
 cdef double _NONE
 
 @cython.final

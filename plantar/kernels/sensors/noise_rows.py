@@ -2,7 +2,7 @@
 
 import numpy as np
 
-__all__ = ["NoiseRows", "SensedBody", "TaxelSample"]
+__all__ = ["NoiseRows", "SampleClock", "SensedBody", "TaxelSample"]
 
 
 class NoiseRows:
@@ -72,6 +72,29 @@ class SensedBody:
             self.told_joints[i] = self.told_joints[i] + self.offsets[i]
         for i in range(self.bias.shape[0]):
             self.told_rate[i] = self.told_rate[i] + self.bias[i]
+
+
+class SampleClock:
+    """Says when samples are due: at multiples of a `period` in s from `begin` on, `near` of that in s counting."""
+
+    def __init__(self, period, near):
+        self.period = period
+        self.near = near
+        self.start = 0.0
+        self.taken = 0
+
+    def begin(self, now):
+        """The first sample is due `now`, in s."""
+        self.start = now
+        self.taken = 0
+
+    def due(self, now):
+        """Whether a sample is due `now`, in s, which is then taken."""
+        if now < self.start + self.taken * self.period - self.near:
+            return False
+        # Counts on from now: steps longer than the period skip samples, they do not pile up.
+        self.taken = int((now - self.start) / self.period + 1e-6) + 1
+        return True
 
 
 _NONE = float("nan")

@@ -194,12 +194,11 @@ class Judge:
 
     def step(self) -> int:
         """Take in a physics step; returns what `StepWatch.step` reports."""
-        contacts = self._contacts
-        feet = contacts.read()
+        feet = self._contacts.read()
         self.feet = feet
         if self.actors:
             self.outside.expect()
-        seen: int = self._watch.step(feet, contacts.count)
+        seen: int = self._watch.step(feet, self.world.data.ncon)
         if self.pieces is not None:
             self.pieces.loads.step(feet)
         if seen:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.kernels.contacts.foot_contacts import ContactsInSole
 from plantar.kernels.contacts.pressed_sole import PressedSole
-from plantar.kernels.sensors.noise_rows import TaxelSample
+from plantar.kernels.sensors.noise_rows import SampleClock, TaxelSample
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.mujoco.named_id import named_id
@@ -95,8 +95,9 @@ class SoleSkin:
 
     def sampled(self, data: Any, contacts: FootContacts | None, sample: TaxelSample) -> NDArray[np.float64]:
         """What electronics read of the springs. Returns readings (n,) in N."""
-        seen = self._seen_in(data, contacts)
-        return np.asarray(sample.of_contacts(self.springs, seen, self._in_sole, self._reach))
+        seen = contacts if contacts is not None and data is self._data else self._seen_in(data, contacts)
+        sampled: NDArray[np.float64] = sample.of_contacts(self.springs, seen, self._in_sole, self._reach)
+        return sampled
 
     def _seen_in(self, data: Any, contacts: FootContacts | None) -> FootContacts:
         """The sole's contacts, looked at from the sole."""
@@ -135,8 +136,7 @@ class SkinSensor:
         self._errors = errors
         self._direct = isinstance(skin, SoleSkin) and skin.springs is not None and errors is None
         self._queue: deque[Reading] = deque(maxlen=sensing.delay_periods + 1)
-        self._start = 0.0
-        self._taken = 0
+        self._clock = SampleClock(self.period, SAME_TIME)
 
     def read(
         self, data: Any, contacts: FootContacts | None = None, *, near: bool = True, everything: bool = False
@@ -146,20 +146,18 @@ class SkinSensor:
         `everything`: measure it always; the reading holds it where wanted. Returns the reading; the same object until a
         newer sample arrives.
         """
-        now = float(data.time)
-        if not self._queue:
-            self._start = now
-            self._taken = 0
-        if now >= self._start + self._taken * self.period - SAME_TIME:
-            # Count on from now: steps longer than the period skip samples, they do not pile up.
-            self._taken = int((now - self._start) / self.period + 1e-6) + 1
+        now = data.time
+        queue = self._queue
+        if not queue:
+            self._clock.begin(now)
+        if self._clock.due(now):
             distance = None if self.proximity is None else self.proximity.read(data, near, everything)
             if self._direct:
                 force = self.skin.sampled(data, contacts, self._sample)
             else:
                 force = self._sampled(now, data, contacts, distance)
-            self._queue.append(Reading.taken_over(now, force, distance))
-        return self._queue[0]
+            queue.append(Reading.taken_over(now, force, distance))
+        return queue[0]
 
     def _sampled(
         self, now: float, data: Any, contacts: FootContacts | None, distance: NDArray[np.float64] | None
