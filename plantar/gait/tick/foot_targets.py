@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.sides import SIDES, Side
+from plantar.common.sides import Side
 from plantar.gait.balance.law import Feet, FootAction, FootState
 from plantar.gait.command import FootTarget
 from plantar.gait.controller_settings import ControllerSettings
@@ -36,22 +36,25 @@ class FootTargets:
     def states(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool, rests: bool) -> Feet:
         """Returns the feet for a balance law. `rests`: whether the robot stands after a walk; wrenches included."""
         states: dict[Side, FootState] = {}
-        motion = self._footing.motion
+        footing = self._footing
+        motion = footing.motion
+        looks = contacts or rests
         crept = self._crept() if contacts else ()
-        for side in SIDES:
+        for side, damping in footing.damping.items():
             level = motion.rotation(side)
             rotation = level
-            x, y = self._footing.damping[side].turn.tolist()
+            x, y = damping.turn.tolist()
             if x or y:
                 rotation = turned(level, x, y)
             contact = None
             wrench = None
-            if (contacts or rests) and (phase.swing != side or motion.landed):
+            if looks and (phase.swing != side or motion.landed):
                 contact = self._contact(side, crept) if contacts else None
                 wrench = soles[side].wrench_in_sole
-            center = self._footing.contacts.center(side)
-            states[side] = FootState(motion.footholds[side][0], level, rotation, center, contact, wrench)
-        return Feet(states, phase.stance, self._footing.frame, rests)
+            states[side] = FootState(
+                motion.footholds[side][0], level, rotation, footing.contacts.center(side), contact, wrench
+            )
+        return Feet(states, phase.stance, footing.frame, rests)
 
     def targets(self, feet: Feet, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
         """Returns pose and load of each sole of `feet`, turned and shifted about its center by the law's actions."""

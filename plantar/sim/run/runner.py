@@ -242,14 +242,13 @@ class Simulation(Run):
 
     def compute_rest(self, command: Command, everything: bool) -> int:
         """Returns how many percepts of a `command` were not computed; `everything` computes them all."""
-        count = 0
-        for percept in command.percepts.values():
-            if everything:
+        if everything:
+            for percept in command.percepts.values():
                 for name in _MEMBERS:
                     getattr(percept, name)
-            else:
-                count += len(_MEMBERS) - len(percept.__dict__)  # a percept keeps its members alone
-        return count
+            return 0
+        # A percept keeps its members alone.
+        return sum([len(_MEMBERS) - len(percept.__dict__) for percept in command.percepts.values()])
 
     def _identity(self) -> dict[str, object]:
         return {

@@ -97,8 +97,12 @@ class SensorSuite:
         """
         data = self._world.data
         feet = self._contacts.read() if contacts is None else contacts
-        for side, foot in zip(SIDES, feet, strict=True):
-            self.readings[side] = self.skins[side].read(data, foot, near=side in near, everything=everything)
+        left, right = feet
+        skins = self.skins
+        self.readings = {
+            "left": skins["left"].read(data, left, near="left" in near, everything=everything),
+            "right": skins["right"].read(data, right, near="right" in near, everything=everything),
+        }
         return feet
 
     def read_body(self) -> Sensors:
@@ -118,7 +122,7 @@ class SensorSuite:
             joint_positions=joints,
             gyro=gyro,
             accelerometer=specific,
-            readings=dict(self.readings),
+            readings=self.readings,  # new ones with each sample
             ankles={} if self._ankle_noise is None else self._ankles(),
             skin=None if self.body_skin is None else self.body_skin(),
             links={} if self.body_links is None else self.body_links(),
