@@ -117,7 +117,7 @@ class Footing:
             senses = {i: SoleSense(percepts[i], state.positions_sole[i], state.rotations_sole[i]) for i in SIDES}
         target = None if phase.swing is None else self._plan.view.foothold(phase.step)
         if phase.kind == PhaseKind.STANDING:  # feet relax then
-            heights = {side: place.item(2) for side, place in state.positions_sole.items()}
+            heights = {side: state.positions_sole[side].item(2) for side in SIDES}
         motion.update(phase, sensed.time, target, state.loads, self.frame, senses, self._press(), heights)
         feet = motion.view
         if feet.touchdown and feedback:
