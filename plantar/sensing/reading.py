@@ -48,6 +48,7 @@ class Reading(ReadingFields):
 
     if TYPE_CHECKING:
 
+        def _keep(self, *fields: Any) -> None: ...
         def _take_over(self, *fields: Any) -> None: ...
 
     def __init__(
