@@ -2,7 +2,8 @@
 (() => {
 'use strict';
 const $ = id => document.getElementById(id);
-const NOT_MEASURED = 0xFFFF, FULL = 0.1, ARROW = 0.4, CORNERS = 12;  // FULL: weight; ARROW: m that stand for the weight
+const NOT_MEASURED = 0xFFFF, ARROW = 0.4, CORNERS = 12;  // ARROW: m that stand for the weight
+const BELOW = 0.99, SAMPLES = 2e5, LOADED = 1;  // the colours' end: so large a share of readings above LOADED N is below it
 const VIRIDIS = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]].map(c => c.map(v => v / 255));
 const SEEN = {corner: [-0.9, 0.3], side: [-Math.PI / 2, 0.12], front: [0, 0.12], above: [-Math.PI / 2, 1.5],
   below: [-Math.PI / 2, -1.3]};  // azimuth and elevation in rad of the eye
@@ -36,6 +37,15 @@ class Walk {
       this.totals[side] = unpack(sole.total, Float32Array);
       sole.cop = unpack(sole.cop, Float32Array);
     }
+  }
+  // Force in N below which nearly all loaded readings are: one spike does not darken all others.
+  usual() {
+    const all = SIDES.filter(s => this.soles[s]).map(s => this.soles[s].force);
+    const step = Math.max(1, Math.floor(all.reduce((n, forces) => n + forces.length, 0) / SAMPLES));
+    const found = [];
+    for (const forces of all) for (let k = 0; k < forces.length; k += step) if (forces[k] > LOADED) found.push(forces[k]);
+    const sorted = Float32Array.from(found).sort();
+    return sorted.length ? Math.max(1, Math.ceil(sorted[Math.floor(BELOW * (sorted.length - 1))])) : 1;
   }
   get duration() { return this.time[this.time.length - 1]; }
   index(time) {
@@ -135,6 +145,7 @@ class Space {
       return frame;
     });
     this.ground = 0;
+    this.still = [];  // materials of ground and things, with their colours
     for (const entity of walk.entities) this.place(entity);
     this.grid = gridOf(10, 0.5);
     this.grid.position.z = this.ground + 4e-3;
@@ -153,6 +164,7 @@ class Space {
       if (!mesh || !frame) continue;
       if (entity.frame === 'world' && shape.kind === 'cube' && Math.min(shape.size[0], shape.size[1]) > 10)
         this.ground = shape.pose[2] + shape.size[2] / 2;
+      if (entity.frame === 'world' && mesh.material) this.still.push([mesh.material, mesh.material.color.clone()]);
       frame.add(mesh);
     }
   }
@@ -206,6 +218,8 @@ class Space {
   recolour() {
     this.scene.background = new THREE.Color(style('--sky'));
     this.grid.material.color = new THREE.Color(style('--grid'));
+    const bright = Number(style('--ground'));
+    for (const [material, colour] of this.still) material.color.copy(colour).multiplyScalar(bright);
   }
   resize() {
     const {clientWidth: width, clientHeight: height} = this.canvas;
@@ -240,7 +254,7 @@ class Space {
     const walk = this.walk, {geometry, owner} = this.cells[side], colours = geometry.getAttribute('color');
     const known = walk.soles[side].cells.map((_, k) => {
       const force = walk.force(side, k, i);
-      return Number.isNaN(force) ? [0.5, 0.5, 0.5] : viridis(force / (FULL * walk.weight));
+      return Number.isNaN(force) ? [0.5, 0.5, 0.5] : viridis(force / full);
     }).map(c => new THREE.Color().setRGB(c[0], c[1], c[2], THREE.SRGBColorSpace));
     owner.forEach((taxel, k) => colours.setXYZ(k, known[taxel].r, known[taxel].g, known[taxel].b));
     colours.needsUpdate = true;
@@ -305,7 +319,7 @@ function drawSoles(walk, canvas, i) {
     const ring = points => { pen.beginPath(); points.forEach((p, k) => pen[k ? 'lineTo' : 'moveTo'](...put(p))); pen.closePath(); };
     sole.cells.forEach((cell, taxel) => {
       const force = walk.force(side, taxel, i);
-      pen.fillStyle = Number.isNaN(force) ? '#888888' : `rgb(${viridis(force / (FULL * walk.weight)).map(v => Math.round(255 * v))})`;
+      pen.fillStyle = Number.isNaN(force) ? '#888888' : `rgb(${viridis(force / full).map(v => Math.round(255 * v))})`;
       ring(cell);
       pen.fill();
     });
@@ -323,12 +337,24 @@ function drawSoles(walk, canvas, i) {
   });
 }
 
+// The round number, 1, 2 or 5 times a power of ten, that is at least so much.
+function nice(least) {
+  const power = 10 ** Math.floor(Math.log10(Math.max(least, 1e-9)));
+  return power * [1, 2, 5, 10].find(k => k * power >= least * (1 - 1e-9));
+}
+
 function drawForces(walk, canvas, time, end) {
   const {pen, width, height} = flat(canvas), most = Math.max(...SIDES.map(s => walk.totals[s] ? walk.totals[s].reduce((a, b) => Math.max(a, b || 1), 1) : 1));
-  const x = t => width * t / Math.max(end, 1e-6), y = f => height - 4 - (height - 20) * f / most;
+  const x = t => width * t / Math.max(end, 1e-6), y = f => height - 16 - (height - 28) * f / most;
   pen.font = '12px system-ui, sans-serif';
+  pen.strokeStyle = style('--line');
   pen.fillStyle = style('--soft');
-  pen.fillText(most.toFixed(0) + ' N', 4, 12);
+  const marks = [];
+  for (let f = 0, by = nice(most / 4.5); f <= most; f += by) {
+    pen.beginPath(); pen.moveTo(0, y(f)); pen.lineTo(width, y(f)); pen.stroke();
+    marks.push([f ? f + ' N' : '', 4, y(f) - 3]);
+  }
+  for (let t = 0, by = nice(60 * end / width); t <= end; t += by) marks.push([Number(t.toFixed(3)) + ' s', x(t) + 3, height - 3]);
   for (const side of SIDES) {
     const total = walk.totals[side];
     if (!total) continue;
@@ -342,12 +368,14 @@ function drawForces(walk, canvas, time, end) {
     }
     pen.stroke();
   }
+  for (const [text, left, low] of marks) pen.fillText(text, left, low);
   pen.strokeStyle = style('--ink');
   pen.beginPath(); pen.moveTo(x(time), 0); pen.lineTo(x(time), height); pen.stroke();
 }
 
 const walks = JSON.parse($('data').textContent).map(given => new Walk(given));
 const end = Math.max(...walks.map(walk => walk.duration));
+const full = Math.max(...walks.map(walk => walk.usual()));  // one scale for all, which are compared
 const eye = {azimuth: SEEN.corner[0], elevation: SEEN.corner[1], distance: 3.4};
 const sections = walks.map((_, k) => $('walk-' + k));
 let time = 0, playing = false, last = 0, waiting = false;
@@ -490,7 +518,7 @@ function turnable(canvas) {
 }
 
 $('time').max = String(end);
-$('full').textContent = [...new Set(walks.map(walk => (FULL * walk.weight).toFixed(0) + ' N'))].join(', ');  // of each
+$('full').textContent = full + ' N';
 new ResizeObserver(() => { for (const space of spaces) if (space) space.resize(); soon(); }).observe($('walks'));
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { for (const space of spaces) if (space) space.recolour(); soon(); });
 const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);  // a link to an instant

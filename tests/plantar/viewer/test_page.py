@@ -96,11 +96,26 @@ def test_the_page_plays_steps_jumps_and_asks_for_nothing(page, tmp_path):
     assert [line for line in seen.console if "GPU stall" not in line and "GL Driver" not in line] == []
 
 
-def test_the_scale_is_that_of_each_walk(tmp_path):
-    runs = [write_walk(tmp_path / f"{mass}.mcap", mass=mass) for mass in (40.0, 80.0)]
+def test_one_scale_for_all_walks_ends_where_99_percent_of_the_loaded_readings_are_below(tmp_path, monkeypatch):
+    usual = small_walk.forces
+
+    def with_a_spike(time: float) -> dict[str, np.ndarray]:
+        forces = usual(time)
+        forces["left"] = np.where(
+            (np.arange(len(forces["left"])) == 0) & (abs(time - 0.5) < 0.01), 5000.0, forces["left"]
+        )
+        return forces
+
+    runs = [write_walk(tmp_path / "usual.mcap")]
+    monkeypatch.setattr(small_walk, "forces", with_a_spike)
+    runs.append(write_walk(tmp_path / "spike.mcap"))
     write_page(runs, tmp_path / "view.html")
-    found = visit(tmp_path / "view.html", READY + "return byId('scale').textContent;", tmp_path, webgl=True)
-    assert found.found.startswith("0 N39 N, 78 N on a taxel.")
+    script = READY + "return [byId('full').textContent, byId('scale').textContent];"
+    full, scale = visit(tmp_path / "view.html", script, tmp_path, webgl=True).found
+    readings = [usual(t) for t in np.linspace(0.0, small_walk.SECONDS, 200)]
+    loaded = np.concatenate([f for both in readings for f in both.values()])
+    assert float(full.removesuffix(" N")) == pytest.approx(np.percentile(loaded[loaded > 1.0], 99.0), rel=0.1)
+    assert "99 % of the loaded readings are below" in " ".join(scale.split())
 
 
 def test_large_and_negative_forces_are_not_clipped(tmp_path, monkeypatch):

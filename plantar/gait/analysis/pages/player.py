@@ -19,6 +19,7 @@ USUAL_RATE = 25.0  # Frames a second that the player shows of a long recording
 MOST_FRAMES = 1500
 FEWEST_FRAMES = 50
 MOST_EVENTS = 2000  # Events that are listed
+BELOW = 99.0  # Percent of the loaded readings that are below the colours' end: one spike does not darken all others
 MOST_BYTES = 900_000  # Largest size of the packed pressures; a mat of very many cells is shown with fewer frames
 
 
@@ -48,7 +49,8 @@ def _packed(
 ) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
     chosen = _frames(recording, feet)
     held = ((gait, np.nan_to_num(gait.foot.force[chosen])) for gait in feet.values())
-    highest = max(float(_shown(recording, gait, force).max(initial=0.0)) for gait, force in held) or 1.0
+    loaded = [_shown(recording, gait, force)[force > gait.cell_threshold] for gait, force in held]
+    highest = max((float(np.percentile(values, BELOW)) for values in loaded if len(values)), default=0.0) or 1.0
     while True:
         packed = [_foot(recording, gait, chosen, highest) for gait in feet.values()]
         # Base64 takes 4 bytes for 3.

@@ -12,6 +12,7 @@ from plantar.common.gravity import GRAVITY
 from plantar.common.pages.page import Section, embedded, figures_of, number, page, warning_list
 from plantar.common.version import VERSION
 from plantar.gait.analysis.measures import MEASURES
+from plantar.gait.analysis.pages.player import BELOW
 from plantar.gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
 
 _GAIT = (
@@ -138,7 +139,8 @@ def _tiles(metrics: Mapping[str, Any]) -> str:
 
 def _player(data: Mapping[str, Any]) -> str:
     text = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
-    scales = f"0 to {number(data['feet'][0]['highest'])} {data['unit']}"
+    highest = f"{number(data['feet'][0]['highest'])} {data['unit']}"
+    scales = f"0 to {highest}; {BELOW:g} % of the loaded readings are below"
     part = "" if data["whole"] else f" The first {data['times'][-1] - data['times'][0]:.0f} s of walking are shown."
     return Template(asset("player.html")).substitute(data=text, scales=scales, part=part)
 
