@@ -25,6 +25,11 @@ HIDDEN = {"plantar.bench", "plantar.kernels", "plantar.cli", "plantar.commands",
 """Rooms without a page: measurements, what is called through `plantar.geometry` and `plantar.percepts`, the command
 line, and packages, which have a list of their own."""
 
+NOT_SEARCHED = ("settings.md", "architecture.md", "scale.md", "changelog.md", "api/plantar.", "benchmarks/")
+"""Pages that the search leaves out, by how their place begins: what the project looks like inside."""
+
+_LEFT_OUT = "---\nsearch:\n  exclude: true\n---\n"  # what the theme's search understands
+
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)((?:#[^)]*)?)\)")
 
 
@@ -44,7 +49,8 @@ def main() -> None:
     (PAGES / "errors.md").write_text(errors_page(), encoding="utf-8")
     write_api()
     for page in PAGES.rglob("*.md"):
-        page.write_text(linked(page), encoding="utf-8")
+        inside = page.relative_to(PAGES).as_posix().startswith(NOT_SEARCHED)
+        page.write_text((_LEFT_OUT if inside else "") + linked(page), encoding="utf-8")
 
 
 def linked(page: Path) -> str:
