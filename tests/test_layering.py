@@ -77,7 +77,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "plantar.robots": (
         *("robot_tables", "biped", "robot", "robot_file", "leg_shapes", "model_file", "kinematics", "walk"),
-        *("motors", "sole_readings", "controller_settings", "start", "bring_up", "controller"),
+        *("motors", "sole_readings", "controller_settings", "start", "bring_up", "controller", "survey"),
     ),
     "plantar.kernels": (
         *("build_stamp", "base", "geometry", "mechanics", "skin", "gait", "joints", "contacts", "sensors", "judging"),

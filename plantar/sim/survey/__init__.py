@@ -1,1 +1,1 @@
-"""How a robot stands and walks, found in its model."""
+"""A robot introduced: its files, checked by plans and decided by a trial walk."""

@@ -20,14 +20,14 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
+from plantar.robots.survey.fitted_gait import ROLL_MOST
+from plantar.robots.survey.plan_reach import PlanReach, Walked, plan_reach, settled, speed_shares
+from plantar.robots.survey.robot_text import roll_pitch_yaw
+from plantar.robots.survey.servo_gains import CHATTERS, DAMPED, LEAST_STIFFNESS, joint_inertia, servo_gains
+from plantar.robots.survey.sole_frame import level_axes, rested
+from plantar.robots.survey.step_search import HELD, SPARE
 from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sim.run.scene import Scene, load_scene
-from plantar.sim.survey.fitted_gait import ROLL_MOST
-from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, speed_shares
-from plantar.sim.survey.robot_text import roll_pitch_yaw
-from plantar.sim.survey.servo_gains import CHATTERS, DAMPED, LEAST_STIFFNESS, joint_inertia, servo_gains
-from plantar.sim.survey.sole_frame import level_axes, rested
-from plantar.sim.survey.step_search import HELD, SPARE
 
 _STEPS = 8  # of a longer walk: the others are as these
 _BENT = math.radians(8.0)  # of a knee: below it inverse kinematics damps, and the CoM is no longer free

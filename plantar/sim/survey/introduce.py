@@ -22,14 +22,14 @@ from plantar.geometry.polygon import area
 from plantar.layouts.layout_file import read_layout
 from plantar.robots.robot import LegNames, Robot
 from plantar.robots.robot_file import load_robot
+from plantar.robots.survey.fitted_gait import FittedGait, fit_gait
+from plantar.robots.survey.model_copy import add_rotors, write_model_copy
+from plantar.robots.survey.robot_text import robot_text
+from plantar.robots.survey.servo_gains import rotor_inertia
+from plantar.robots.survey.survey import Survey, explained, survey_model
 from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sim.survey.check import check_robot
-from plantar.sim.survey.fitted_gait import FittedGait, fit_gait
-from plantar.sim.survey.model_copy import add_rotors, write_model_copy
 from plantar.sim.survey.robot_picture import draw_robot
-from plantar.sim.survey.robot_text import robot_text
-from plantar.sim.survey.servo_gains import rotor_inertia
-from plantar.sim.survey.survey import Survey, explained, survey_model
 from plantar.sim.survey.trial_walk import push_text, trial_walk
 
 _SHOE_DENSITY = 15.5  # kg/m^2 of a shoe that was not built: those built for feet of 130 and 230 mm have 15.3 and 15.5

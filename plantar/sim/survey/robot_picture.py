@@ -10,9 +10,9 @@ from plantar.common.sides import SIDES
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
+from plantar.robots.survey.plan_reach import settled
 from plantar.sim.figures.render import Camera, Line, View, save_picture
 from plantar.sim.model.world import World, build_world
-from plantar.sim.survey.plan_reach import settled
 from plantar.sim.terrain import Ground, Terrain
 
 _VIEWS = ((180.0, -8.0), (90.0, -8.0), (145.0, -30.0))  # azimuth and elevation in degrees: front, side, from above

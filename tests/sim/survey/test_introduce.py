@@ -19,17 +19,17 @@ from plantar.commands.robot import robot as robot_command
 from plantar.errors import InputError, PlantarError, RobotError
 from plantar.recordings.recording import read_mcap
 from plantar.robots import load_robot
+from plantar.robots.survey.model_copy import write_model_copy
+from plantar.robots.survey.robot_text import roll_pitch_yaw
+from plantar.robots.survey.sole_frame import rested
+from plantar.robots.survey.survey import survey_model
 from plantar.shoes.found_foot import shoe_for_surface, taxel_area
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.introduce import introduce
-from plantar.sim.survey.model_copy import write_model_copy
-from plantar.sim.survey.robot_text import roll_pitch_yaw
-from plantar.sim.survey.sole_frame import rested
-from plantar.sim.survey.survey import survey_model
 
-from .random_biped import random_biped
+from ...robots.survey.random_biped import random_biped
 
 SEED = 10
 """A biped of six joints a leg whose left foot is turned in its body."""

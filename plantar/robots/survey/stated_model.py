@@ -16,8 +16,8 @@ from plantar.common.files.model_source import BELOW, ModelSource, read_model_sou
 from plantar.errors import RobotError
 from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
-from plantar.sim.survey.body_surface import SHAPES
-from plantar.sim.survey.surface_file import meshes_for_mujoco
+from plantar.robots.survey.body_surface import SHAPES
+from plantar.robots.survey.surface_file import meshes_for_mujoco
 
 _COORDINATES = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}  # of a keyframe; other joints have one
 _MOST_TURNED = 20.0  # rad, three turns: hinges of robots have 10 at most, and in degrees a knee or hip has 45 or more

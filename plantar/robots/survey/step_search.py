@@ -12,10 +12,10 @@ from plantar.errors import RobotError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
+from plantar.robots.survey.first_posture import least_stance
+from plantar.robots.survey.plan_reach import PlanReach, Walked, plan_reach, speed_shares
+from plantar.robots.survey.step_time import rocking
 from plantar.robots.walk import Walk, walk_timing
-from plantar.sim.survey.first_posture import least_stance
-from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, speed_shares
-from plantar.sim.survey.step_time import rocking
 
 KNEE_LEAST = math.radians(20.0)
 """Bend of the straightest knee over a walk of level steps: h1 walks with 14, hrp2kai with 24 degrees."""

@@ -10,7 +10,7 @@ from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sim.survey.step_time import (
+from plantar.robots.survey.step_time import (
     LEAN_MOST,
     ankle_reach,
     has_ankle_roll,
@@ -64,5 +64,5 @@ def test_two_rolling_joints_of_the_hip_are_no_ankle(monkeypatch):
     names = robot.legs["left"].joints
     ids = [int(legs.model.joint(name).id) for name in names]
     assert has_ankle_roll(robot, legs)
-    monkeypatch.setattr("plantar.sim.survey.step_time.rolling_joints", lambda *_: ids[:2])
+    monkeypatch.setattr("plantar.robots.survey.step_time.rolling_joints", lambda *_: ids[:2])
     assert not has_ankle_roll(robot, legs)

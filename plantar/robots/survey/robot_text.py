@@ -11,12 +11,12 @@ from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.mechanics.rotation import vector_from_rotation
 from plantar.robots.robot import Robot
+from plantar.robots.survey.fitted_gait import QUICK_HELD, FittedGait
+from plantar.robots.survey.servo_gains import SAMPLED, STIFFNESS
+from plantar.robots.survey.step_search import KNEE_LEAST, STEP_SHARE
+from plantar.robots.survey.step_time import LEAN_MOST
+from plantar.robots.survey.survey import NO_SPEED, Survey
 from plantar.robots.walk import CONTROL_PERIOD
-from plantar.sim.survey.fitted_gait import QUICK_HELD, FittedGait
-from plantar.sim.survey.servo_gains import SAMPLED, STIFFNESS
-from plantar.sim.survey.step_search import KNEE_LEAST, STEP_SHARE
-from plantar.sim.survey.step_time import LEAN_MOST
-from plantar.sim.survey.survey import NO_SPEED, Survey
 
 _WIDTH = 110  # characters of a comment
 

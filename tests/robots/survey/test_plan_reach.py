@@ -12,9 +12,10 @@ from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sim.survey.fitted_gait import fit_gait
-from plantar.sim.survey.plan_reach import _Pass, plan_reach
-from plantar.sim.survey.step_search import SHIFT, TURN, straight_walk
+from plantar.robots.survey.fitted_gait import fit_gait
+from plantar.robots.survey.plan_reach import _FRICTION, _Pass, plan_reach
+from plantar.robots.survey.step_search import SHIFT, TURN, straight_walk
+from plantar.sim.terrain import terrain_kinds
 
 
 def reach_of(name, slower):
@@ -81,3 +82,7 @@ def test_steps_aside_lean_the_torso_about_the_feet_and_not_about_the_start():
     )
     assert many.missed == pytest.approx(few.missed, abs=1e-3)
     assert many.carrying == pytest.approx(few.carrying, rel=0.03)
+
+
+def test_the_ground_is_as_slippery_as_scenes_lay_it():
+    assert terrain_kinds()["flat"]().friction == _FRICTION

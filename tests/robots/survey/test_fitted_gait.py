@@ -11,9 +11,7 @@ from plantar.robots import load_robot
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.robots.walk import walk_timing
-from plantar.sim.run.scene import load_scene
-from plantar.sim.survey.fitted_gait import (
+from plantar.robots.survey.fitted_gait import (
     APPROACH_HEIGHT,
     APPROACH_SPEED,
     QUICK_DOUBLE,
@@ -22,8 +20,10 @@ from plantar.sim.survey.fitted_gait import (
     FittedGait,
     fit_gait,
 )
-from plantar.sim.survey.plan_reach import plan_reach
-from plantar.sim.survey.step_search import STEP_SHARE, straight_walk
+from plantar.robots.survey.plan_reach import plan_reach
+from plantar.robots.survey.step_search import STEP_SHARE, straight_walk
+from plantar.robots.walk import walk_timing
+from plantar.sim.run.scene import load_scene
 
 SLOW = BodyScale(mass=3.5, leg=0.22, sole=0.13, sole_width=0.09, pace_beats=1.6)
 

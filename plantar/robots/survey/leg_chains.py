@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import Side
 from plantar.errors import RobotError
-from plantar.sim.survey.body_surface import geom_triangles, resting_plane, shapes_of
+from plantar.robots.survey.body_surface import geom_triangles, resting_plane, shapes_of
 
 LEAST_JOINTS = 4
 """Hinges that a leg has at least: roll and pitch of the hip, knee and pitch of the ankle."""

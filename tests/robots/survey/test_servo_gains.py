@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from plantar.robots.survey.model_copy import add_rotors
+from plantar.robots.survey.servo_gains import SAMPLED, JointInertia, rotor_inertia, servo_gains
 from plantar.robots.walk import CONTROL_PERIOD
-from plantar.sim.survey.model_copy import add_rotors
-from plantar.sim.survey.servo_gains import SAMPLED, JointInertia, rotor_inertia, servo_gains
 
 
 @pytest.mark.parametrize("seed", range(20))

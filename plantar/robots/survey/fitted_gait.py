@@ -15,12 +15,12 @@ from plantar.robots.kinematics.body import body_of, pitching_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
+from plantar.robots.survey.first_posture import bent_posture, least_stance, posture_height, stance_width
+from plantar.robots.survey.plan_reach import PlanReach, Walked, missed_aside, plan_reach, settled
+from plantar.robots.survey.servo_gains import CHATTERS, DAMPED, JointInertia, joint_inertia, servo_gains
+from plantar.robots.survey.step_search import HELD, QUICK_STEPS, SPARE, TURN, best_steps, straight_walk
+from plantar.robots.survey.step_time import ankle_reach, has_ankle_roll
 from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
-from plantar.sim.survey.first_posture import bent_posture, least_stance, posture_height, stance_width
-from plantar.sim.survey.plan_reach import PlanReach, Walked, missed_aside, plan_reach, settled
-from plantar.sim.survey.servo_gains import CHATTERS, DAMPED, JointInertia, joint_inertia, servo_gains
-from plantar.sim.survey.step_search import HELD, QUICK_STEPS, SPARE, TURN, best_steps, straight_walk
-from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll
 
 ROLL_MOST = math.radians(3.0)
 """Angle of a sole that carries alone against level ground up to which its taxels' soft pad lets it rest whole."""

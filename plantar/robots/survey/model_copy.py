@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from plantar.common.atomic import write_text
 from plantar.mujoco.mesh_surface import mesh_surface
 from plantar.mujoco.quaternions import quaternion_of
-from plantar.sim.survey.body_surface import SHAPES
-from plantar.sim.survey.leg_chains import Legs
-from plantar.sim.survey.surface_file import simplified, stl_bytes
+from plantar.robots.survey.body_surface import SHAPES
+from plantar.robots.survey.leg_chains import Legs
+from plantar.robots.survey.surface_file import simplified, stl_bytes
 
 MESH_FOLDER = "meshes"
 """Folder of its meshes, next to the copy."""

@@ -8,7 +8,7 @@ import pytest
 from plantar.errors import RobotError
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sim.survey.first_posture import bent_posture, posture_height
+from plantar.robots.survey.first_posture import bent_posture, posture_height
 
 
 @pytest.mark.parametrize("name", builtin_robots())

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from plantar import RobotError
-from plantar.sim.survey.body_surface import shapes_of
-from plantar.sim.survey.stated_model import read_stated_model
-from plantar.sim.survey.survey import NO_SPEED, survey_model
+from plantar.robots.survey.body_surface import shapes_of
+from plantar.robots.survey.stated_model import read_stated_model
+from plantar.robots.survey.survey import NO_SPEED, survey_model
 
 from .random_biped import random_biped
 
@@ -314,7 +314,7 @@ def test_speed_limits_and_gains_are_those_of_each_joint_on_the_weaker_side(tmp_p
     speeds = dict.fromkeys((*left, *right), 9.0) | {left[2]: 4.0, left[-1]: odd, right[-1]: odd}
     gains = dict.fromkeys(left, (900.0, 9.0)) | dict.fromkeys(right, (300.0, 30.0))
     stated = replace(source, speeds={k: v for k, v in speeds.items() if v > 0.0}, gains=gains)
-    monkeypatch.setattr("plantar.sim.survey.survey.read_stated_model", lambda *_: stated)
+    monkeypatch.setattr("plantar.robots.survey.survey.read_stated_model", lambda *_: stated)
     found = survey_model(truth.file, tmp_path)
     assert found.speeds == (9.0, 9.0, 4.0, *(9.0,) * (len(left) - 4), NO_SPEED)
     assert found.gains == ((300.0, 30.0),) * len(left)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from plantar.errors import RobotError
-from plantar.sim.survey.body_surface import convex_surface, geom_triangles, resting_plane, shapes_of
-from plantar.sim.survey.leg_chains import Leg
+from plantar.robots.survey.body_surface import convex_surface, geom_triangles, resting_plane, shapes_of
+from plantar.robots.survey.leg_chains import Leg
 
 _RESTS = 0.25  # share of the silhouette that a plane must have to be what the foot rests on
 _LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers

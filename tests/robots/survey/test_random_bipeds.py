@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from plantar.sim.survey.survey import survey_model
+from plantar.robots.survey.survey import survey_model
 
 from .random_biped import X, Y, random_biped
 

@@ -7,8 +7,8 @@ import pytest
 
 from plantar.common.files import gate
 from plantar.errors import RobotError
-from plantar.sim.survey import surface_file
-from plantar.sim.survey.surface_file import meshes_for_mujoco, stl_bytes
+from plantar.robots.survey import surface_file
+from plantar.robots.survey.surface_file import meshes_for_mujoco, stl_bytes
 
 trimesh = pytest.importorskip("trimesh")
 BOX = trimesh.creation.box((0.2, 0.1, 0.04))

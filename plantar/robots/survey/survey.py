@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError
-from plantar.sim.survey.leg_chains import Legs, find_legs
-from plantar.sim.survey.sole_frame import Sole, find_sole
-from plantar.sim.survey.stated_model import StatedModel, named_note, read_stated_model
+from plantar.robots.survey.leg_chains import Legs, find_legs
+from plantar.robots.survey.sole_frame import Sole, find_sole
+from plantar.robots.survey.stated_model import StatedModel, named_note, read_stated_model
 
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
 NO_SPEED = 1e3  # rad/s: stands for no limit

@@ -23,8 +23,7 @@ from plantar.robots.kinematics.leg_inertia import angular_momentum, leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.standing_posture import posture_of
 from plantar.robots.robot import Robot
-from plantar.sim.survey.servo_gains import floating_inertia
-from plantar.sim.terrain.ground import Terrain
+from plantar.robots.survey.servo_gains import floating_inertia
 
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
 _FIRST = 40  # Newton steps for the standing posture
@@ -36,6 +35,7 @@ _LANDING = 0.1  # of a swing, at its end, in which all of it counts
 _HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
 # Mean distance of a rectangle's points from its middle, over its diagonal: 0.25 of a line, 0.27 of a square
 _ARM = 0.26
+_FRICTION = 0.8  # of the ground that scenes lay unless they state another (`terrain.friction`)
 _STEP = 0.15  # rad: largest change in a Newton step, see plantar.robots.kinematics.inverse_kinematics
 
 Array = NDArray[np.float64]
@@ -243,7 +243,7 @@ class _Pass:
         weight = self.legs.mass * GRAVITY
         place = self.middles["left"][0]
         shift = about_y / (weight * min(high[0] - place, place - low[0]))
-        turn = about_z / (Terrain.friction * weight * _ARM * math.hypot(*(high - low)))
+        turn = about_z / (_FRICTION * weight * _ARM * math.hypot(*(high - low)))
         return PlanReach(
             self.missed,
             self.knee,

@@ -1,0 +1,1 @@
+"""How a robot stands and walks, found in its model."""
