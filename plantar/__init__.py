@@ -11,6 +11,7 @@ Doors, each documented by `help(plantar.NAME)`; what a door needs is loaded at i
     load_scene(name or file)     a scene for the simulator
     run(scene, seed)             simulate it, judge it by the true contact forces, and record it
     mujoco                       the same skin for any MuJoCo model
+    calibrate(takes, layout)     counts of soles into newtons, with the uncertainty of each gain
     live.open_live(source)       readings as they come, from a serial port, the network, a file or a program
 
 What a sole measures, and what follows from it:
@@ -46,6 +47,7 @@ from plantar.common.version import VERSION as __version__
 
 if TYPE_CHECKING:
     from plantar import batch, live, mujoco
+    from plantar.calibration.calibrated import calibrate
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -109,6 +111,7 @@ __all__ = [
     "analyse",
     "analyze",
     "batch",
+    "calibrate",
     "fit_ground_plane",
     "grid_layout",
     "hex_layout",
@@ -145,6 +148,7 @@ _PLACES = {
     "TaxelActivation": "sensing.activation",
     "analyse": "gait.analysis.analyse",
     "analyze": "gait.analysis.analyse:analyse",
+    "calibrate": "calibration.calibrated",
     "fit_ground_plane": "sensing.ground_plane",
     "grid_layout": "layouts.tiling",
     "hex_layout": "layouts.tiling",

@@ -69,6 +69,9 @@ QUICK = {
         r"stuck: \[5\].*polygon of (\d+) cm.*contact: (\d+) by a threshold, (\d+) with hysteresis",
         holds=lambda area, bare, kept: 100 < area < 240 and kept < bare / 5,
     ),
+    "calibrate_a_sole": Example(
+        r"gains within (\S+) %.*worst gain (\S+) % off", holds=lambda sure, worst: worst < 2 * sure
+    ),
     "percept_temperature": Example(r"push with (\d+) N", holds=lambda force: force == 14 * 13),
     "percept_a_million": Example(r"as a percept says it: True", ("20000",)),
     "record_larger_than_memory": Example(

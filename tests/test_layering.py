@@ -36,7 +36,8 @@ def part_of(module: str) -> str | None:
 ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
         *("errors", "kernels", "common", "parts", "doctor", "mechanics", "layouts", "plotting", "geometry"),
-        *("sensing", "percepts", "batch", "mujoco", "recordings", "formats", "live", "viewer", "bench"),
+        *("sensing", "percepts", "batch", "mujoco", "recordings", "formats", "live"),
+        *("calibration", "viewer", "bench"),
     ),
     "plantar.common": (
         *(

@@ -18,6 +18,10 @@ def live(
     send: Annotated[
         list[str] | None, Option(metavar="SINK", help="Where readings go on to, such as udp:9871; repeatable.")
     ] = None,
+    counts: Annotated[
+        bool,
+        Option("--counts", help="Values are counts: forces follow by the layout's calibration (plantar calibrate)."),
+    ] = False,
     correct_clocks: Annotated[bool, Option("--correct-clocks", help="Put both soles on the left one's clock.")] = False,
     strict: Annotated[bool, Option("--strict", help="End with exit 2 at what is not a reading in order.")] = False,
     output: Annotated[Path, Option("-o", "--output", help="The recording to write.")] = Path("out/live.mcap"),
@@ -43,7 +47,7 @@ def live(
     keep_inputs(output, [source.partition(":")[2], layout])
     sinks = [open_sink(text) for text in send or []]
     sole = None if layout is None else read_layout(layout)
-    stream = open_live(source, sole, strict=strict, correct=correct_clocks, kind=kind)
+    stream = open_live(source, sole, strict=strict, correct=correct_clocks, kind=kind, counts=counts)
     with parent_folder(output), progress_bar() as progress:
         found = {"file": str(output), **record(stream, output, seconds, progress, sinks)}
     lines = [f"{found['seconds']:.1f} s recorded", *_feet_lines(found), *_fault_lines(found), f"  {output}"]

@@ -12,6 +12,7 @@ from plantar.common.console.ending import one_line
 from plantar.common.extensions import extensions
 from plantar.common.files.input_file import check_input, is_file, open_input
 from plantar.errors import FormatError, InputError, PlantarError
+from plantar.formats.counts import in_newtons
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import checked
 from plantar.formats.table_text import head_of_table
@@ -136,7 +137,7 @@ def read_recording(
         check_input(path, FormatError)
         raise FormatError(f"{path}: a footprint image is no recording over time")
     try:
-        found = checked(chosen.read(Path(path), known))
+        found = checked(in_newtons(chosen.read(Path(path), known)))
         if known.plates and found.kind != "plate":
             raise InputError(f"--plates is for force plates; {path} is a recording of kind {found.kind}")
         if known.columns is not None and found.format != "csv":

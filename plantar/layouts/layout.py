@@ -20,6 +20,7 @@ from plantar.common.arrays import array, integers, numbers, own, read_only
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import LayoutError
 from plantar.kernels.skin.sole import SoleKernel
+from plantar.layouts.calibration import SoleCalibration
 from plantar.layouts.contact_levels import ContactLevels, contact_levels
 from plantar.layouts.source_pose import SourcePose
 from plantar.mechanics.lip import GRAVITY
@@ -78,6 +79,8 @@ class SoleLayout:
         pose: Of the sole's frame in the file or link that it came from, if known.
         noise: Standard deviation of a taxel's readings of each in SI, where known. At the layout's own force threshold
             a sole that measures no more than its noise has no active taxel (`contact_levels`).
+        calibrations: What turns the counts of each side's taxels into newtons, where they were calibrated; a mirrored
+            layout keeps both sides'.
 
     Raises:
         LayoutError: Invalid field, named in the message.
@@ -106,6 +109,7 @@ class SoleLayout:
     thresholds: Mapping[str, float] = field(default_factory=lambda: dict(DEFAULT_THRESHOLDS))
     pose: SourcePose | None = None
     noise: Mapping[str, float] = field(default_factory=dict)
+    calibrations: Mapping[Side, SoleCalibration] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         kept = self.__dict__  # past what keeps others from assigning
@@ -154,6 +158,13 @@ class SoleLayout:
         instance(self.name, str, "layout field 'name'", LayoutError)
         if self.pose is not None:
             instance(self.pose, SourcePose, "layout field 'pose'", LayoutError)
+        kept = self.__dict__
+        kept["calibrations"] = MappingProxyType(dict(_named("calibrations", self.calibrations)))
+        for side, known in self.calibrations.items():
+            if side not in SIDES:
+                raise LayoutError(f"layout field 'calibrations' names {side!r}; allowed: left, right")
+            if len(instance(known, SoleCalibration, f"layout field 'calibrations.{side}'", LayoutError)) != n:
+                raise LayoutError(f"layout field 'calibrations.{side}' is of {len(known)} taxels; expected {n}")
         if self.side not in SIDES:
             raise LayoutError(f"layout field 'side' is {self.side!r}; allowed: left, right")
         if len(np.unique(self.ids)) != n:
@@ -212,6 +223,11 @@ class SoleLayout:
     def force_threshold(self) -> float:
         """Force in N of an active taxel (epsilon_f of T 4.22)."""
         return float(self.thresholds.get("force", DEFAULT_THRESHOLDS["force"]))
+
+    @property
+    def calibration(self) -> SoleCalibration | None:
+        """What turns this side's counts into newtons; None if it was not calibrated."""
+        return self.calibrations.get(self.side)
 
     @cached_property
     def contact_levels(self) -> ContactLevels:

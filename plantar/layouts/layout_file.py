@@ -14,6 +14,7 @@ from plantar.common.arguments import instance
 from plantar.common.atomic import write_text
 from plantar.common.files.structured_text import read_json
 from plantar.errors import LayoutError
+from plantar.layouts.calibration import SoleCalibration
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.source_pose import SourcePose
 
@@ -27,6 +28,8 @@ def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
     """A layout as lossless plain JSON values, SI, sole frame."""
     instance(layout, SoleLayout, "layout")
     pose = {} if layout.pose is None else {"pose": layout.pose.as_dict()}
+    known = {side: calibration.as_dict() for side, calibration in layout.calibrations.items()}
+    calibrated = {"calibrations": known} if known else {}
     return {
         "schema": SCHEMA,
         "name": layout.name,
@@ -39,6 +42,7 @@ def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
         "thresholds": dict(layout.thresholds),
         **({"noise": dict(layout.noise)} if layout.noise else {}),
         **pose,
+        **calibrated,
         "outline": layout.outline.tolist(),
         "vertices": layout.vertices.tolist(),
         "taxels": [
@@ -122,6 +126,7 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
     noise = _take(source, "noise", dict, where) if "noise" in source else {}
     for key, value in noise.items():
         _numbers(value, (), f"noise.{key}", where)
+    calibrations = _take(source, "calibrations", dict, where) if "calibrations" in source else {}
     vertices = _numbers(_take(source, "vertices", list, where), (None, 3), "vertices", where)
     outline = _numbers(_take(source, "outline", list, where), (None, 2), "outline", where)
     cell_area = _numbers(_take(source, "cell_area", (int, float), where), (), "cell_area", where)
@@ -145,6 +150,9 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
             ranges={k: (float(v[0]), float(v[1])) for k, v in ranges.items()},
             thresholds={k: float(v) for k, v in thresholds.items()},
             noise={k: float(v) for k, v in noise.items()},
+            calibrations={
+                cast(Side, side): SoleCalibration.from_mapping(known, where) for side, known in calibrations.items()
+            },
             pose=None if source.get("pose") is None else SourcePose.from_mapping(source["pose"], where),
         )
         check_cells(layout)

@@ -14,7 +14,7 @@ from plantar.live.arrival import Arrival, Fault, LiveItem, LiveReading, Silence
 from plantar.live.clock_pair import ClockDifference, ClockPair
 from plantar.live.fault_log import FaultLog
 from plantar.live.sole_timeline import SoleTimeline, Timed
-from plantar.live.source import LiveStream, device_errors, opened_source
+from plantar.live.source import LiveStream, device_errors, in_newtons, opened_source
 from plantar.recordings.pressure_recording import Kind
 from plantar.sensing.reading import Reading
 
@@ -270,6 +270,7 @@ def open_live(
     strict: bool = False,
     correct: bool = False,
     kind: str | None = None,
+    counts: bool = False,
 ) -> CheckedStream:
     """Open a live source by its `text`, such as "serial:/dev/ttyUSB0" or "replay:run.mcap".
 
@@ -279,6 +280,7 @@ def open_live(
         strict: Raise InputError at the first fault other than a gap; else faults are counted.
         correct: Put the right sole on the left one's clock, where they differ.
         kind: What measures: "robot", "insole", "platform"; None: what the source states.
+        counts: Its values are counts, which become forces by the layout's calibration.
 
     Returns:
         Stream, whose `readings` yields a side and its reading as they come.
@@ -292,6 +294,8 @@ def open_live(
         plantar.errors.InputError: unknown live source 'hearsay'; allowed: file, lines, packets, replay, serial, udp
     """
     stream = opened_source(text, layout)
+    if counts:
+        stream = in_newtons(stream)
     if kind is None:
         return CheckedStream(stream, strict, correct)
     known = next((one for one in get_args(Kind) if one == kind), None)

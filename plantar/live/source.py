@@ -12,9 +12,11 @@ from plantar.common.arguments import instance
 from plantar.common.extensions import extensions
 from plantar.common.sides import Side
 from plantar.errors import InputError
+from plantar.layouts.calibration import CountStream
 from plantar.layouts.layout import SoleLayout
-from plantar.live.arrival import Arrival
+from plantar.live.arrival import Arrival, Fault
 from plantar.recordings.pressure_recording import Kind
+from plantar.sensing.reading import Reading
 
 QUIET = 0.5
 """Time in s without a reading after which a source yields None."""
@@ -73,6 +75,30 @@ def opened_source(text: str, layout: SoleLayout | None) -> LiveStream:
         raise InputError(f"unknown live source {name!r}; allowed: {', '.join(known)}")
     with device_errors(f"live source {text!r} cannot be opened"):
         return instance(known[name].open(address, layout), LiveStream, f"stream of live source {name!r}")
+
+
+def in_newtons(stream: LiveStream) -> LiveStream:
+    """A stream whose readings hold counts, with forces by the calibration of its soles; InputError if one has none."""
+    streams: dict[Side, CountStream] = {}
+    for side, sole in stream.soles.items():
+        if sole.calibration is not None:
+            streams[side] = CountStream(sole.calibration, sole)
+    if not streams:
+        raise InputError("the layout holds no calibration; allowed with --counts: one from plantar calibrate")
+    soles = {side: sole for side, sole in stream.soles.items() if side in streams}
+    return stream._replace(soles=soles, readings=_converted(stream.readings, streams))
+
+
+def _converted(arrivals: Iterator[Arrival], streams: Mapping[Side, CountStream]) -> Iterator[Arrival]:
+    for arrival in arrivals:
+        if arrival is None or isinstance(arrival, Fault):
+            yield arrival
+            continue
+        side, reading = arrival
+        if side not in streams:
+            yield Fault("garbled", f"a reading is of the {side} sole, which is not calibrated")
+        else:
+            yield side, Reading(reading.time, streams[side].force(reading.force, reading.time))
 
 
 @contextmanager

@@ -183,6 +183,13 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         return self._cop()
 
     @lazy
+    def cop_deviation_in_sole(self) -> NDArray[np.float64] | None:
+        """Standard deviation (2,) in m of the CoP by the errors of the calibration's gains, or None without load or
+        calibration."""
+        known = self.layout.calibration
+        return None if known is None else known.cop_deviation(self.layout, self.active_force)
+
+    @lazy
     def surface_cop_in_sole(self) -> NDArray[np.float64] | None:
         """Center of pressure (3,) on the surface in sole frame in m, or None without load; exact to second order."""
         cop = self.position_cop_in_sole

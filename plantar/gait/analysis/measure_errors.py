@@ -19,7 +19,7 @@ _EDGE = 3.5  # Cells at the edge of a print of n cells are about this times the 
 
 def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, float]:
     """Returns standard errors of one step's measures of a foot's `gait`, its steps measured, in a `recording`: by key
-    in SI, by noise, rate, cells and events, without calibration.
+    in SI, by noise, rate, cells and events, and by calibration where the layout holds one.
 
     A mean over n steps errs by 1 / sqrt(n) of noise and frames, and fully of cells and definitions.
     """
@@ -33,6 +33,8 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
         out |= _places(layout, levels, middle)
     if layout is not None and "contact_area_m2" in middle:
         out |= _pressures(layout, levels, gait.picture, middle)
+    if layout is not None and layout.calibration is not None:
+        out = _with_calibration(out, gait, layout, middle)
     return {key: error for key, error in out.items() if key in MEASURES and key in middle and np.isfinite(error)}
 
 
@@ -139,6 +141,29 @@ def _pressures(
     }
 
 
+def _with_calibration(
+    errors: Mapping[str, float], gait: FootGait, layout: SoleLayout, middle: Mapping[str, float]
+) -> dict[str, float]:
+    """Errors with those of the calibration's gains, which are the same in each step."""
+    known = layout.calibration
+    assert known is not None
+    steps = gait.used[:50]
+    loads = np.mean([np.nanmean(gait.foot.force[s.contact.begin : s.contact.end], axis=0) for s in steps], axis=0)
+    share = known.load_deviation(loads)
+    cell = float(np.median(known.gain_error))
+    away = known.cop_deviation(layout, loads)
+    ahead, across = (0.0, 0.0) if away is None else away.tolist()
+    own: dict[str, float] = {key: share * abs(middle[key]) for key in _LOADS if key in middle}
+    own |= {key: cell * middle[key] for key in _PEAKS if key in middle}
+    own |= {"cop_excursion_ap_m": ahead, "cop_excursion_ml_m": across, "cop_margin_m": across}
+    own["cop_path_m"] = 2.0**0.5 * float(np.hypot(ahead, across))
+    return {key: float(np.hypot(error, own.get(key, 0.0))) for key, error in errors.items()}
+
+
+_LOADS = (
+    *("peak_force_N", "first_peak_N", "valley_N", "second_peak_N", "mean_force_N", "impulse_Ns", "landing_impact_N"),
+    *("loading_rate_N_s", "loading_rate_max_N_s", "mean_pressure_Pa", "mean_pressure_max_Pa"),
+)
 _AREAS = ("contact_area_m2", "footprint_area_m2", "support_polygon_area_m2", "support_polygon_mean_m2")
 _PEAKS = ("peak_pressure_Pa", "pressure_time_integral_Pas", "pressure_time_integral_cell_Pas")
 _PER_AREA = ("mean_pressure_Pa", "mean_pressure_max_Pa", "force_time_integral_area_Pas", "arch_index")
