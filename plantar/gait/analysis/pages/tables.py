@@ -53,7 +53,7 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
     note = "; symmetry index 100 (L − R) / ((L + R) / 2), 0 is symmetric" if both else ""
     caption = (
         "Over the steps in the means: mean, standard deviation, median, coefficient of variation; error: standard "
-        f"error of one step by noise, frames, cells and events, and the sensor's gains where the layout holds their errors{note}."
+        f"error of one step by noise, frames, cells, events, and gains where the layout is calibrated{note}."
     )
     return table("Measures", caption, [*head, "Symmetry index (%)"] if both else head, rows)
 
