@@ -1,7 +1,8 @@
 """Swing path as a polynomial, fitted each tick to its landing (K 13-16).
 
-Ridge regression (K 14) of the reference before, without the measured places that K has too, exact at both ends,
-unlike K 16, which overwrites two coefficients; time is a share of the swing, the reference kept monotone (K 2.4).
+Ridge regression (K 14) of the reference before, without the measured places that K has too, exact at both ends, or with
+`ends` "printed" as K 16, which overwrites two coefficients; time is a share of the swing, the reference kept monotone
+(K 2.4).
 """
 
 from dataclasses import dataclass, field
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.record import Record
-from plantar.common.settings.schema import number, whole
+from plantar.common.settings.schema import choice, number, whole
 from plantar.gait.feet.swing_flight import PolynomialSwing, SwingFlight
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.kernels.gait.swing_fit import fit
@@ -27,8 +28,11 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
         damping: lambda on the coefficients' squares; the paper's 0.01 lands at 0.15 m/s.
         position: sigma_pos on position; on velocity and acceleration times the control period, counted in swings, and
             its square.
+        ends: "kept" fits through both ends; "printed" weighs them like other conditions (K 14) and then overwrites the
+            first and the last coefficient (K 16), which flattens the swing.
     """
 
+    ends: str = choice("kept", "printed")
     order: int = whole(6, "1", 5, 9)
     damping: float = number(1e-6, "1", 1e-9, 1e3)
     position: float = number(1.0, "1", 1e-9, 1e3)
@@ -86,6 +90,8 @@ class SwingFit:
         same = [rules.damping * (np.eye(n - 1) + 1.0), *(weight * _reduced(r).T @ _reduced(r) for r in rests)]
         pulls = [np.full(n - 1, rules.damping), *(-weight * _reduced(r).T @ r[:, n] for r in rests)]
         self._same = np.array([np.column_stack(parts).ravel() for parts in zip(same, pulls, strict=True)])
+        places = np.array([*(r for rest in rests for r in rest), *heights, _powers(0.0, n), _powers(1.0, n)])
+        self._printed_rows = None if rules.ends == "kept" else places
         self._conditions = np.zeros((3, 4))
         self._work = np.zeros((6 + 2 * (n - 1), n + 1))
 
@@ -99,7 +105,8 @@ class SwingFit:
         if elapsed >= duration or duration <= 0.0:
             self._state = np.array([end, np.zeros(3), np.zeros(3)])
         else:
-            found = self._fitted(end, elapsed, duration)
+            fitted = self._fitted if self._printed_rows is None else self._printed
+            found = fitted(end, elapsed, duration)
             self._keep_monotone(found, end, elapsed / duration)
             self._state = found
         return SwingPoint(*self._state.copy())
@@ -128,6 +135,34 @@ class SwingFit:
         fit(n, now / lasts, before, conditions, same, self._high, top, way, self._work, found)
         found /= units
         found[0] += start
+        return found
+
+    def _printed(self, end: NDArray[np.float64], now: float, lasts: float) -> NDArray[np.float64]:
+        """The same by K 14, all conditions weighed, and K 16, the way from the start in shares of the swing."""
+        assert self._printed_rows is not None
+        n = self._rules.order
+        tick = self._period / lasts
+        units = np.array(((1.0,), (lasts,), (lasts * lasts,)))
+        way = end - self._start
+        before = self._state * units
+        before[0] -= self._start
+        # At rest, without acceleration, twice at the height, at both ends, and where the reference was a tick ago.
+        top = max(0.0, float(way[2])) + self._height
+        values = np.vstack([np.zeros((4, 3)), np.full((2, 3), top), np.zeros(3), way, before])
+        rows = np.vstack([self._printed_rows, _rows(max(now - self._period, 0.0) / lasts, n)])
+        shares = np.array([tick, tick, tick**2, tick**2, 1.0, 1.0, 1.0, 1.0, 1.0, tick, tick**2])
+        weights = self._rules.position * shares
+        found = np.empty((3, 3))
+        for axis in range(3):
+            used = weights.copy()
+            used[4:6] *= axis == 2
+            matrix = (rows.T * used) @ rows + self._rules.damping * np.eye(n + 1)
+            a = np.linalg.solve(matrix, (rows.T * used) @ values[:, axis])
+            a[0] = 0.0
+            a[n] = way[axis] - a[1:n].sum()
+            found[:, axis] = np.array(_rows(now / lasts, n)) @ a
+        found /= units
+        found[0] += self._start
         return found
 
     def _keep_monotone(self, found: NDArray[np.float64], end: NDArray[np.float64], s: float) -> None:

@@ -87,6 +87,38 @@ def test_each_tick_is_the_best_polynomial_through_both_ends(rules):
         before = astuple(found)
 
 
+def test_as_printed_the_ends_are_put_in_afterwards():
+    rules, rng, start = SwingFitRules(damping=0.01, ends="printed"), np.random.default_rng(1), np.zeros(3)
+    fit, before = SwingFit(rules, start, PERIOD, HEIGHT), (start, np.zeros(3), np.zeros(3))
+    compared = 0
+    for k in range(1, 60):
+        lasts, end = 0.8 + 0.05 * math.sin(k), np.array([0.2, -0.1, 0.02]) + 0.01 * rng.normal(size=3)
+        found = fit.aim(end, PERIOD * k, lasts)
+        n, tick, s = rules.order, PERIOD / lasts, PERIOD * (k - 1) / lasts
+        for axis in range(3):
+            problem = Written(rules, lasts, 0.0, end[axis], max(0.0, end[2]) + HEIGHT if axis == 2 else None)
+            for d in range(3):
+                problem.add(basis(s, n, d), before[d][axis] * lasts**d, rules.position * tick**d)
+            printed = problem.printed()
+            wanted = [basis(PERIOD * k / lasts, n, d) @ printed / lasts**d for d in range(3)]
+            if found.position[axis] == pytest.approx(wanted[0], abs=1e-12):  # else kept from turning round
+                assert found.velocity[axis] == pytest.approx(wanted[1], abs=1e-8)
+                assert found.acceleration[axis] == pytest.approx(wanted[2], abs=1e-6)
+                compared += 1
+        before = astuple(found)
+    assert compared > 80
+
+
+def test_as_printed_the_damping_flattens_the_swing():
+    goal = [0.2, 0.0, 0.0]
+    printed, kept = (
+        path(lambda _: goal, lambda _: 0.8, SwingFitRules(damping=damping, ends=ends))
+        for damping, ends in ((0.01, "printed"), (1e-6, "kept"))
+    )
+    assert printed[:, 2].max() < 0.8 * HEIGHT < kept[:, 2].max()
+    assert printed[-1] == pytest.approx(goal)
+
+
 def path(goal_at, duration_at, rules=None) -> np.ndarray:
     """Positions (n, 3) of a swing whose goal and duration follow the time."""
     fit, found = SwingFit(rules or SwingFitRules(), [0.0, 0.0, 0.0], PERIOD, HEIGHT), []
