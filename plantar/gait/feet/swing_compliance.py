@@ -157,7 +157,7 @@ class SwingCompliance:
             x = view.slope[1] / self.gains.turning
             y = -view.slope[0] / self.gains.turning
             size = math.hypot(x, y)
-            largest = self.turn_rate(view.distance, view.slope)
+            largest = self.turn_rate(view.distance, view.slope, view.even)
             if size > largest:
                 x = x * largest / size
                 y = y * largest / size
@@ -168,13 +168,16 @@ class SwingCompliance:
         x, y = self._turn
         return np.array([x * period, y * period, 0.0])
 
-    def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
+    def turn_rate(self, distance: float, slope: tuple[float, float], even: bool = True) -> float:
         """Largest turning rate in rad/s: an edge descends no faster than the sole, unless slope exceeds noise.
 
-        `distance`: down to the first contact in m; `slope`: ground's rise along the sole's x, y (tangents).
+        `distance`: down to the first contact in m; `slope`: ground's rise along the sole's x, y (tangents); `even`:
+        whether it is all of the ground's, not that from a block's edge to the floor behind it.
         """
         g = self.gains
         gentle = (g.touch_speed + max(0.0, distance) / g.damping) / self._arm
+        if not even:
+            return min(g.turn_rate, gentle)
         return min(g.turn_rate, gentle + max(0.0, math.hypot(*slope) - _SLOPE_OF_NOISE) / g.turning)
 
     def holding(self, since: float) -> float:

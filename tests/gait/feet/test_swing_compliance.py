@@ -25,6 +25,7 @@ def test_close_to_the_ground_an_edge_goes_down_no_faster_than_the_sole() -> None
     assert slow * np.hypot(*np.ptp(LAYOUT.outline, axis=0)) / 2 == pytest.approx(gains.touch_speed)
     assert compliance.turn_rate(0.03, (0.005, 0.0)) == gains.turn_rate
     assert compliance.turn_rate(0.0, (0.1, 0.0)) == gains.turn_rate  # a wedge slides in
+    assert compliance.turn_rate(0.0, (0.17, 0.0), even=False) == slow  # from a block's edge to the floor behind it
 
 
 @pytest.mark.parametrize("height", [0.06, 0.04, 0.02])
