@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 ROWS, COLUMNS = 720, 240
 PITCH = 0.005
 RATE = 100.0
+_HEEL = 0.2  # share of the length in which the heel lies
 _COLUMNS = (
     "ParticipantID,Footwear,Speed,FootstepID,PassID,StartFrame,EndFrame,Ymin,Ymax,Xmin,Xmax,Orientation,Side,Standing,"
     "Incomplete,Rscore,Outlier,Exclude,RotationAngle,FootLength,FootWidth,MeanPressure"
@@ -43,7 +44,8 @@ _PARTS = np.array(
 class Walker:
     """A person: foot length and step in m, toe out in rad, step width in m, stance in s, step time in s, load.
 
-    `sole`: how much larger the loaded parts are than those of a bare foot; 1.5 is a flat shoe.
+    `sole`: how much larger the loaded parts are than those of a bare foot; 1.5 is a flat shoe. `left_heel`: how many
+    times its usual pressure the left heel has.
     """
 
     length: float
@@ -54,6 +56,7 @@ class Walker:
     period: float
     load: float
     sole: float = 1.0
+    left_heel: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,6 +147,7 @@ def _footstep(
         rise = np.interp(
             share, [first, 0.5 * (first + peak), peak, 0.5 * (peak + last), last], [0.0, 0.8, 1.0, 0.7, 0.0]
         )
+        kpa *= who.left_heel if side == "left" and x < _HEEL else 1.0
         whole = np.maximum(whole, (kpa * who.load * random.normal(1.0, 0.06) * rise)[:, None, None] * shape)
     whole *= random.normal(1.0, 0.03, whole.shape) if whole.any() else 1.0
     cells = np.clip(np.rint(whole), 0, 255).astype(np.uint8)

@@ -46,6 +46,7 @@ from plantar.gait.analysis.study.one_recording import (
     read_result,
     write_result,
 )
+from plantar.gait.analysis.study.paper_table import paper_text
 from plantar.gait.analysis.study.participants import Participation, not_read, read_participants
 from plantar.gait.analysis.study.patient_page import patient_figures, patient_page
 from plantar.gait.analysis.study.reliability import Agreement, Reliability, agreements, reliabilities
@@ -220,8 +221,9 @@ def run_study(
 ) -> Study:
     """Measure a folder's recordings; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
 
-    Where the study has them, also changes.csv, reliability.csv, agreement.csv, mixed.csv, patient.csv, patient.html and
-    study.xlsx. Results of equal options and version are reused. Unreadable recordings are rows with the reason.
+    Where the study has them, also paper.md (tables of a paper), changes.csv, reliability.csv, agreement.csv, mixed.csv,
+    patient.csv, patient.html and study.xlsx. Results of equal options and version are reused. Unreadable recordings are
+    rows with the reason.
 
     Args:
         folder: With its subfolders; or one file, which is measured alone.
@@ -468,6 +470,8 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
         steps = {"steps": (columns, list(islice(study.step_rows(), MOST_ROWS)))}
         sheets = steps | {name: (_names(rows), rows) for name, rows in tables.items()}
         written.append(write_workbook(target / "study.xlsx", sheets))
+    if study.comparisons:
+        written.append(write_text(target / "paper.md", paper_text(study.comparisons)))
     summary = study.summary()
     written.append(write_text(target / "study.json", json.dumps(summary, indent=1, allow_nan=False) + "\n"))
     if figures:

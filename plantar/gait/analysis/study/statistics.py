@@ -20,7 +20,7 @@ class Effect:
     probability of such |t| by chance, by permutation; `p_all`: the same of all measures and pairs of one family;
     `error`: standard error of the difference, with `freedom` degrees of freedom; `margin`: differences up to it are
     called equivalent, NaN where none is stated; `p_equivalent`: probability of such a small difference where the true
-    one is the margin (two one-sided tests).
+    one is the margin (two one-sided tests); `sd_a`, `sd_b`: standard deviations of the participants' means.
     """
 
     paired: bool
@@ -40,6 +40,8 @@ class Effect:
     freedom: float = math.nan
     margin: float = math.nan
     p_equivalent: float = math.nan
+    sd_a: float = math.nan
+    sd_b: float = math.nan
 
 
 def student_quantile(probability: float, freedom: float) -> float:
@@ -108,6 +110,8 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
         p_all,
         error,
         max(freedom, 1.0),
+        sd_a=math.sqrt(va),
+        sd_b=math.sqrt(vb),
     )
 
 

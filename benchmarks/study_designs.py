@@ -1,0 +1,208 @@
+"""How often studies of eight designs find what is not there, and whether they find what is.
+
+python benchmarks/study_designs.py [DRAWS]      (writes benchmarks/study_designs.md; 250 draws a design take 8 min)
+
+Each draw is a table of steps: people differ, so do their conditions, trials and steps, which are skewed, and measures
+depend on one another. Means of participants are compared as a study compares them, over 20 measures, a curve of 101
+values and a map of 36 x 14 places. A difference that is not there is one by p of all (measures) or by a cluster.
+
+The study with an effect is made of footsteps in files and goes the whole way: 20 people, 3 trials, 2 and 4 conditions,
+the last of which takes a fifth off the pressure under the left heel and is walked faster.
+"""
+
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+import numpy as np
+from made_walkway import made_walk, walker, write_stack
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
+
+from plantar.bench.tables import made_on, markdown_table
+from plantar.gait.analysis.study.designs import Design, compare_levels
+from plantar.gait.analysis.study.one_against_group import deviation_of
+from plantar.gait.analysis.study.run_study import Study, run_study
+from plantar.gait.analysis.study.study_options import StudyOptions
+
+FOLDER = Path(__file__).parent
+PEOPLE = 20
+TRIALS, STEPS = 3, 10
+MEASURES = 20
+PERMUTATIONS = 100
+"""Permutations of each test: p is a multiple of 1/100, so that 5 % is met exactly; a study takes 500 or 2,000."""
+
+GROUP = 39  # people of a group that one is compared with: 2 / (39 + 1) is 5 %
+_GRID = (36, 14)
+_LEFT_HEEL = 0.8
+_FASTER = 0.94  # times the step time in the condition with the effect
+
+
+class Draw(NamedTuple):
+    """Rows of means (r, k) of measures, curves and maps, and their design."""
+
+    values: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+    design: Design
+
+
+def steps_to_means(random: np.random.Generator, rows: int, people: NDArray[np.int64], own: float = 1.0) -> Draw:
+    """Means of rows, one for each person and condition: of people, conditions, trials, and skewed steps."""
+    mixing = random.normal(size=(MEASURES, MEASURES))
+    kinds = []
+    for kind in range(3):
+        shape = (MEASURES,) if kind == 0 else (101,) if kind == 1 else _GRID
+        wide = (0.0,) if kind == 0 else (6.0,) if kind == 1 else (3.0, 2.0)
+
+        def noise(count: tuple[int, ...], shape: tuple[int, ...] = shape, wide: tuple[float, ...] = wide) -> NDArray:
+            raw = random.normal(size=(*count, *shape))
+            return raw if len(shape) == 1 and shape[0] == MEASURES else _smooth(raw, wide)
+
+        person = own * noise((int(people.max()) + 1,))[people]
+        condition = 0.5 * noise((rows,))
+        trial = 0.4 * noise((rows, TRIALS)).mean(axis=1)
+        # Steps are skewed: their mean over trials and steps is that of an exponential variable.
+        step = random.exponential(size=(rows, TRIALS * STEPS, *((1,) * len(shape)))) - 1.0
+        steps = (step * noise((rows, 1))).mean(axis=1)
+        value = (person + condition + trial + steps).reshape(rows, -1)
+        kinds.append(value @ mixing if kind == 0 else value)
+    level = np.zeros(rows, dtype=np.int64)
+    return Draw((kinds[0], kinds[1], kinds[2]), Design(people, level, np.zeros((rows, 0)), within=True))
+
+
+def _smooth(values: NDArray[np.float64], wide: tuple[float, ...]) -> NDArray[np.float64]:
+    smooth = gaussian_filter(values, (*((0.0,) * (values.ndim - len(wide))), *wide))
+    return smooth / smooth.std()
+
+
+def conditions(random: np.random.Generator, levels: int, covariate: bool = False) -> Draw:
+    people, level = np.divmod(np.arange(PEOPLE * levels), levels)
+    draw = steps_to_means(random, len(people), people)
+    known = np.zeros((len(people), 0))
+    values = draw.values
+    if covariate:  # a speed that differs between conditions and moves all values
+        speed = random.normal(size=(len(people), 1)) + 0.8 * level[:, None]
+        values = tuple(own + 0.7 * speed * random.normal(size=own.shape[1]) for own in values)  # type: ignore[assignment]
+        known = speed
+    return Draw(values, Design(people, level, known, within=True))
+
+
+def groups(random: np.random.Generator, levels: int) -> Draw:
+    people = np.arange(PEOPLE * levels)
+    draw = steps_to_means(random, len(people), people)
+    return Draw(draw.values, Design(people, people % levels, np.zeros((len(people), 0)), within=False))
+
+
+def changes(random: np.random.Generator) -> Draw:
+    """Change between two conditions of each person, compared between two groups: their interaction."""
+    people, level = np.divmod(np.arange(4 * PEOPLE), 2)
+    draw = steps_to_means(random, len(people), people)
+    values = tuple(own[level == 1] - own[level == 0] for own in draw.values)
+    who = np.arange(2 * PEOPLE)
+    return Draw(values, Design(who, who % 2, np.zeros((len(who), 0)), within=False))  # type: ignore[arg-type]
+
+
+def found(draw: Draw) -> list[bool]:
+    """Whether measures, curves and maps show a difference."""
+    places = (None, np.ones(101, dtype=bool), np.ones(_GRID, dtype=bool))
+    out = []
+    for values, place in zip(draw.values, places, strict=True):
+        contrasts = compare_levels(values, draw.design, place, PERMUTATIONS)
+        alone = any(bool((c.p_all <= 0.05).any()) for c in contrasts)
+        out.append(alone if place is None else any(bool(c.significant.any()) for c in contrasts))
+    return out
+
+
+def one_against(random: np.random.Generator) -> list[bool]:
+    draw = steps_to_means(random, GROUP + 1, np.arange(GROUP + 1))
+    return [bool(deviation_of(values[0], values[1:]).differs.any()) for values in draw.values]
+
+
+DESIGNS: dict[str, Callable[[np.random.Generator], list[bool]]] = {
+    "two conditions": lambda random: found(conditions(random, 2)),
+    "four conditions": lambda random: found(conditions(random, 4)),
+    "two conditions, speed allowed for": lambda random: found(conditions(random, 2, covariate=True)),
+    "four conditions, speed allowed for": lambda random: found(conditions(random, 4, covariate=True)),
+    "two groups": lambda random: found(groups(random, 2)),
+    "four groups": lambda random: found(groups(random, 4)),
+    "repeated measures: change between conditions in two groups": lambda random: found(changes(random)),
+    "one against a group": one_against,
+}
+
+
+def planted(folder: Path, levels: int) -> Study:
+    """Study of made footsteps, the last condition of which has the effect and is walked faster."""
+    for person in range(1, PEOPLE + 1):
+        random = np.random.default_rng(person)
+        who = walker(random)
+        for level in range(levels):
+            last = level == levels - 1
+            own = replace(who, left_heel=_LEFT_HEEL if last else 1.0, period=who.period * (_FASTER if last else 1.0))
+            own = replace(own, stance=own.stance * (_FASTER if last else 1.0))
+            for trial in range(TRIALS):
+                target = folder / f"{person:03}" / f"C{level}" / f"W{trial}"
+                write_stack(target, made_walk(own, 420, random), person, f"C{level}", f"W{trial}")
+    plan = StudyOptions(factors=("condition", "side"), covariates=("walking_speed_m_s",))
+    return run_study(folder, folder.parent / f"out{levels}", figures=False, plan=plan)
+
+
+def planted_rows(study: Study) -> list[tuple[str, str, str]]:
+    """Rows: pair of conditions, regions with a found difference, and those whose difference depends on the side."""
+    rows = []
+    for comparison in study.comparisons:
+        if comparison.factor == "condition":
+            names = _found_regions(comparison.effects)
+            pair = f"{comparison.a} to {comparison.b}"
+            both = next((c for c in study.changes if pair in c.factor), None)
+            rows.append((pair, names, "" if both is None else _found_regions(both.effects)))
+    return rows
+
+
+def _found_regions(effects: object) -> str:
+    known = [key for key, effect in effects.items() if effect.p_all <= 0.05]  # type: ignore[attr-defined]
+    return ", ".join(dict.fromkeys(key.partition(".")[0] if "." in key else "foot" for key in known)) or "none"
+
+
+def main() -> None:
+    draws = int(sys.argv[1]) if len(sys.argv) > 1 else 250
+    rows = []
+    sums = np.zeros(3, dtype=int)
+    for number, (name, design) in enumerate(DESIGNS.items()):
+        counts = np.zeros(3, dtype=int)
+        for seed in range(draws):
+            counts += design(np.random.default_rng((number, seed)))
+        sums += counts
+        rows.append((name, *(f"{count} ({100.0 * count / draws:.1f} %)" for count in counts)))
+        print(rows[-1], flush=True)
+    total = draws * len(DESIGNS)
+    rows.append((f"all, {total} draws", *(f"{count} ({100.0 * count / total:.2f} %)" for count in sums)))
+    effects = []
+    with TemporaryDirectory() as name:
+        for levels in (2, 4):
+            effects += planted_rows(planted(Path(name) / f"set{levels}", levels))
+            print(effects, flush=True)
+    lines = [
+        "# Studies of eight designs, without and with a difference",
+        "",
+        f"Written by `python benchmarks/study_designs.py`, {made_on()}; {PEOPLE} people (a group), {PERMUTATIONS}",
+        "permutations.",
+        "",
+        f"Of {draws} draws of each design without a difference, one was reported in measures (p of all of {MEASURES}),",
+        "curves and maps (clusters) of",
+        "",
+        markdown_table(("design", "measures", "curves (1D)", "maps (2D)"), rows),
+        "",
+        f"Studies of made footsteps, {PEOPLE} people and {TRIALS} trials: the last condition takes "
+        f"{100 * (1 - _LEFT_HEEL):.0f} % off the pressure under the left heel and is walked faster; speed is allowed",
+        "for. Where a difference was found (p of all), and where it depends on the side:",
+        "",
+        markdown_table(("conditions", "differs in", "depends on the side in"), effects),
+        "",
+    ]
+    (FOLDER / "study_designs.md").write_text("\n".join(lines), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
