@@ -204,5 +204,5 @@ def figure_of(day: Day) -> Any:
         load.bar(begins + k * widths, values, 0.92 * widths, align="edge", color=COLOURS[side], label=f"{side} foot")
     load.set_ylabel("load an hour (kN·s)")
     load.set_xlabel("clock" if day.clock is not None else "hours since the begin")
-    load.legend(fontsize=8)
+    load.legend(fontsize=8, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
     return figure

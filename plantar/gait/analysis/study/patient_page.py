@@ -100,7 +100,7 @@ def _table(one: OneAgainstGroup, side: Any) -> str:
     for key, found in one.measures[side].items():
         unit, factor = unit_of(key)
         low, high = (number(v * factor) for v in (found.low, found.high))
-        cells = [number(found.value * factor), number(found.mean * factor), f"{low} to {high}"]
+        cells = [number(found.value * factor), number(found.mean * factor), f"{low}\u00a0to\u00a0{high}"]
         if math.isfinite(found.t):
             ends = f"[{found.below_low:.1f},\u00a0{found.below_high:.1f}]"
             cells += [f"{found.below_percent:.1f} {ends}", number(found.t, 2), _probability(found.p)]
@@ -124,7 +124,7 @@ def _table(one: OneAgainstGroup, side: Any) -> str:
 
 
 def _probability(p: float) -> str:
-    return "–" if not math.isfinite(p) else "&lt; 0.001" if p < 0.001 else f"{p:.3f}"
+    return "–" if not math.isfinite(p) else "&lt;\u00a00.001" if p < 0.001 else f"{p:.3f}"
 
 
 def _how(one: OneAgainstGroup) -> str:

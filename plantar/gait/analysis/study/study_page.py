@@ -206,7 +206,7 @@ def _cells(effect: Effect, factor: float) -> list[str]:
 
 
 def _probability(p: float) -> str:
-    return "&lt; 0.001" if p < 0.001 else f"{p:.3f}"
+    return "&lt;\u00a00.001" if p < 0.001 else f"{p:.3f}"
 
 
 def _clusters(one: Comparison) -> str:
