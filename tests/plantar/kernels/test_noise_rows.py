@@ -83,3 +83,14 @@ def test_noise_is_drawn_again_when_all_of_it_was_handed_out(rows):
     assert np.asarray(noise.rows)[0].tolist() == [6.0, 7.0, 8.0]
     assert next(iter(noise)).tolist() == [0.0, 0.0, 0.0]
     assert noise.advance() == 1
+
+
+@pytest.mark.parametrize("form", FORMS, ids=["compiled", "python"])
+def test_samples_are_due_at_multiples_of_their_period(form):
+    clock = form.SampleClock(0.004, 1e-9)
+    clock.begin(0.5)
+    due = [k for k in range(20) if clock.due(0.5 + 0.001 * k)]
+    assert due == [0, 4, 8, 12, 16]
+    assert clock.due(0.5 + 0.027)  # late: the next ones do not pile up
+    assert not clock.due(0.5 + 0.0275)
+    assert clock.due(0.5 + 0.028)

@@ -38,3 +38,28 @@ def test_a_velocity_holds_the_weight_of_all_that_it_moves(seed):
         force = -gravity * inertias[list(moved[body]), 9].sum()
         moment = np.cross(inertias[list(moved[body]), 6:9].sum(axis=0), -gravity)
         assert found[0][v] == pytest.approx(motions[v] @ [*moment, *force], abs=1e-12)
+
+
+@pytest.mark.parametrize("form", [static_load, python_form("static_load")])
+def test_soles_that_press_carry_their_load_and_others_none(form):
+    rng = np.random.default_rng(4)
+    tasks = task_step if form is static_load else python_form("task_step")
+    inertias, motions, torques = rng.normal(size=(7, 10)), rng.normal(size=(7, 6)), np.zeros(7)
+    tree = np.array([0, 0, 1, 2, 1, 0, 5]), np.array([1, 1, 2, 3, 4, 4, 6])
+    kernel = form.StaticLoad(*tree, inertias, motions, rng.normal(size=3), np.arange(7), torques)
+    levers = tuple(
+        tasks.PointRows(np.array(chain), motions, rng.normal(size=3), np.zeros((3, 7))) for chain in ([2, 1], [4, 0])
+    )
+    points, places = rng.normal(size=(2, 2)), rng.normal(size=(2, 3))
+    for left, right in ((300.0, 100.0), (-5.0, 80.0), (-1.0, -2.0)):
+        forces = [np.array([3.0, -2.0, left]), np.array([1.0, 4.0, right])]
+        share = kernel.stand(levers, forces[0], points[0], places[0], forces[1], points[1], places[1])
+        pressing = max(left, 0.0), max(right, 0.0)
+        assert share == (pressing[0] / sum(pressing) if sum(pressing) else 0.5)
+        whole = torques.copy()
+        kernel.weigh()
+        for lever, force, point, place in zip(levers, forces, points, places, strict=True):
+            if force[2] > 0.0:
+                kernel.less(lever, force, *point.tolist(), float(place[2]))
+        kernel.take()
+        assert np.array_equal(torques, whole)

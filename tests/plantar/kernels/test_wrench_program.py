@@ -103,3 +103,30 @@ def test_numbers_that_are_not_finite_are_told(module):
         unknowns = rng.normal(size=12)
         unknowns[place] = np.nan
         assert np.isnan(form.kernel.finish(unknowns, "ab")[0])
+
+
+@settings(max_examples=30)
+@given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 3))
+def test_the_least_cost_is_numpy_s_where_it_meets_the_constraints(seed, count):
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(6 * count, 6 * count))
+    fixed = root @ root.T + np.eye(6 * count)
+    rows = rng.normal(size=(5, 6 * count))
+    for module in FORMS:
+        form = Filled(module, count, fixed)
+        shares = (1.0 / count,) * count
+        assert form.kernel.ask((0.0,) * 6, (0.0,) * 3, shares)
+        for i, contact in enumerate(contacts_of(rng, count)):
+            form.kernel.place(i, *contact)
+        assert form.kernel.turn()
+        assert form.kernel.weigh(True)
+        form.gradient[:] = rng.normal(size=6 * count)
+        least = np.linalg.solve(form.hessian, -form.gradient)
+        met = rows @ least
+        np.testing.assert_allclose(form.kernel.least_cost(rows, met + 1e-3), least, rtol=1e-7, atol=1e-9)
+        met[int(rng.integers(5))] -= 1e-3
+        assert form.kernel.least_cost(rows, met) is None
+        fixed[0, 0] = -1e6  # no cost has a least value then
+        assert form.kernel.weigh(True)
+        assert form.kernel.least_cost(rows, met + 1.0) is None
+        fixed[0, 0] = (root @ root.T + np.eye(6 * count))[0, 0]
