@@ -23,10 +23,11 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from plantar.mujoco.bound_skin import BoundSkin, SkinReading
+    from plantar.mujoco.layer import ElasticLayer
     from plantar.mujoco.skin import Skin
     from plantar.mujoco.skins import Skins
 
-__all__ = ["BoundSkin", "Skin", "SkinReading", "Skins"]
+__all__ = ["BoundSkin", "ElasticLayer", "Skin", "SkinReading", "Skins"]
 
 if not TYPE_CHECKING:
 
@@ -37,5 +38,5 @@ if not TYPE_CHECKING:
         from plantar.common.optional_library import need_libraries
 
         need_libraries("sim", "mujoco", "scipy")
-        home = {"Skin": "skin", "Skins": "skins"}.get(name, "bound_skin")
+        home = {"ElasticLayer": "layer", "Skin": "skin", "Skins": "skins"}.get(name, "bound_skin")
         return getattr(import_module(f"plantar.mujoco.{home}"), name)

@@ -21,12 +21,15 @@ from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.contacts import ContactReader
+from plantar.mujoco.layer import ElasticLayer
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.link_skin import SkinPatch
 from plantar.sensing.reading import Reading
+from plantar.sensing.taxel_faults import TaxelFaults
 
 _LIFT = 0.02  # m inside the body at which proximity rays begin
+_EXACT = 1e-9  # of the load times the extent: how exactly the taxels under a layer have the moment
 _PASSED = 20  # surfaces of its own that a ray passes at most
 LoadMaker = Callable[[], PatchLoad]
 """Makes the kernel of a patch that wraps."""
@@ -39,15 +42,18 @@ class SkinReading(Reading):
     """A `Reading` with what only a simulation knows, sole frame; n taxels.
 
     Attributes:
-        force: (n,) along each taxel's axis in N.
+        force: (n,) along each taxel's axis in N; with faults, what the taxels read of it.
         vectors: Force (n, 3) on each taxel in N.
         wrench: Wrench (6,) of MuJoCo's contacts on body about sole origin in N and N m.
         depth: Overlap (n,) of geoms in m, 0 elsewhere.
+        slip: Velocity (n, 3) of each loaded taxel along what it touches in m/s, 0 of the others; NaN on a flex; None if
+            it is not read (`Skin(slip=True)`).
         carried: Whether the vectors have the whole wrench; else only the load on the sole, as its center of pressure is
             beyond the taxels or the body is pressed from above as well.
     """
 
     carried: bool
+    slip: NDArray[np.float64] | None
     _block: NDArray[np.float64]
 
     @cached_property
@@ -74,7 +80,7 @@ class SkinReading(Reading):
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _made, (self.time, self._block, self.proximity, self.carried)
+        return _made, (self.time, self.force, self._block, self.proximity, self.carried, self.slip)
 
 
 class BoundSkin:
@@ -89,6 +95,9 @@ class BoundSkin:
         rotation_to_body: Rotation (3, 3) from sole to body.
         reach: Gap in m up to which an unloaded contact counts as near.
         proximity_range: Of proximity sensors in m; None for none.
+        slip: Whether taxels' sliding is read.
+        layer: Elastic layer over the cells, or None.
+        faults: Of its taxels, or None; `seed` of their draws.
         static: Taxels' places, axes, areas, widths, and hull of places, as in `TaxelLoad`.
     """
 
@@ -103,6 +112,10 @@ class BoundSkin:
         *,
         reach: float,
         proximity: float | None,
+        slip: bool = False,
+        layer: ElasticLayer | None = None,
+        faults: TaxelFaults | None = None,
+        seed: int = 0,
         make_load: LoadMaker | None = None,
         rings: Sequence[NDArray[np.float64]] = (),
     ) -> None:
@@ -114,6 +127,10 @@ class BoundSkin:
         self.rotation_to_body = np.array(rotation)
         self.reach = reach
         self.proximity_range = proximity
+        self.slip = slip
+        self.layer = layer
+        self.faults = faults
+        self.seed = seed
         self._nearest = _least_gaps(model, body).tolist()
         self.make_load = make_load
         axes = layout.rotations[:, :, 2]
@@ -304,7 +321,7 @@ class SkinView:
     def __init__(self, skin: BoundSkin, data: Any) -> None:
         self.data = data
         self.lock = Lock()
-        self.looks = skin.proximity_range is not None
+        self.looks = skin.proximity_range is not None or skin.faults is not None or skin.slip
         self.origin = np.zeros(3)
         self.rotation = np.eye(3)
         self._skin = skin
@@ -313,8 +330,18 @@ class SkinView:
         self._seen = ContactsInSole()
         self._reach = skin.reach
         self._still = np.zeros(len(self._load.block))
-        self._no_force = self._still[: len(skin)]
-        vectors.close(self._no_force)
+        self._count = len(skin)
+        self._no_force = self._still[: self._count]
+        places, _, areas, _, _ = skin.static
+        self._shares = None
+        if skin.layer is not None:
+            self._shares = skin.layer.shares(skin.layout)
+            self._yields = 1.0 / (skin.layer.stiffness * areas)
+            self._arms = np.ascontiguousarray(np.cross(places[:, None], np.eye(3)).reshape(-1, 3).T)
+            self._extent = float(np.abs(places).max())
+        self._worn = None if skin.faults is None else skin.faults.worn(skin.layout, skin.seed)
+        self._read_at = -math.inf
+        self.carried = True
         seat = np.ascontiguousarray(skin.rotation_to_body)
         at = data.xpos[skin.body]
         self._seen.ride_on(at, data.xmat[skin.body], skin.position_in_body, seat, self.origin, self.rotation)
@@ -336,33 +363,79 @@ class SkinView:
         if load.is_lost():  # diverged: neither in the air nor on the ground
             load.vectors[:] = math.nan
             load.forces[:] = math.nan
+        self.carried = load.carried
+        if self._shares is not None and foot.size:
+            self._yield(load, self._shares)
         return load
+
+    def _yield(self, load: Any, shares: NDArray[np.float64]) -> None:
+        """Share the load as the elastic layer does, and set depths to how far it yields."""
+        shared = np.dot(shares, load.vectors)
+        load.vectors[:] = shared
+        load.forces[:] = np.einsum("ij,ij->i", shared, self._skin.static[1])
+        np.multiply(load.forces, self._yields, out=load.depths)
+        np.maximum(load.depths, 0.0, out=load.depths)
+        off = np.dot(self._arms, shared.ravel()) - load.wrench[3:]
+        size = float(np.abs(shared).sum()) * self._extent
+        self.carried = load.carried and max(abs(x) for x in off.tolist()) <= _EXACT * size
+
+    def _slip(self, foot: FootContacts) -> NDArray[np.float64]:
+        """Velocity (n, 3) of each loaded taxel along what touches nearest to it, sole frame, in m/s."""
+        skin = self._skin
+        load = self._load
+        out = np.zeros((self._count, 3))
+        loaded = np.flatnonzero(np.abs(load.vectors).max(axis=1) > 0.0)
+        if not len(loaded):
+            return out
+        geoms = np.asarray(foot.ids)[: foot.size, 1]
+        points = np.asarray(self._seen.vectors)[: 3 * foot.size : 3]
+        places, axes, _, _, _ = skin.static
+        away = places[loaded, None] - points
+        touched = geoms[np.einsum("ijk,ijk->ij", away, away).argmin(axis=1)]
+        own = self._motion(skin.body)
+        for geom in set(touched.tolist()):
+            here = loaded[touched == geom]
+            if geom < 0:
+                out[here] = math.nan
+                continue
+            spin, flow = own - self._motion(int(skin.model.geom_bodyid[geom]))
+            out[here] = flow + places[here] @ _turning(spin)
+        out[loaded] -= np.einsum("ij,ij->i", out[loaded], axes[loaded])[:, None] * axes[loaded]
+        return out
+
+    def _motion(self, body: int) -> NDArray[np.float64]:
+        """Angular velocity and velocity (2, 3) of a body where the sole's origin is, sole frame."""
+        data = self.data
+        spin, flow = data.cvel[body].reshape(2, 3)  # about the center of mass of its tree
+        moved = flow + (self.origin - data.subtree_com[self._skin.model.body_rootid[body]]) @ _turning(spin)
+        return np.array([spin, moved]) @ self.rotation
 
     def reading(self, foot: FootContacts, time: float) -> SkinReading:
         """The reading of the skin's contacts now."""
         load = self.press(foot)
         near = self._skin.distances(self) if self.looks else None
         block = load.block.copy()
-        reading = _NEW(SkinReading)
-        force = block[: len(self._no_force)]
-        vectors.close(force)
-        reading._keep(time, force, near, None, None)
-        fields = reading.__dict__
-        fields["_block"] = block
-        fields["carried"] = load.carried
-        return reading
+        force = block[: self._count]
+        slip = self._slip(foot) if self._skin.slip else None
+        if self._worn is not None and not load.is_lost():
+            if time < self._read_at:  # the simulation began again
+                self._worn.reset()
+            self._read_at = time
+            force = self._worn.read(time, force, load.vectors)
+        return _made(time, force, block, near, self.carried, slip)
 
     def still(self, time: float) -> SkinReading:
         """The reading of a skin that nothing touches, which only looks at contacts."""
-        reading = _NEW(SkinReading)
-        reading._keep(time, self._no_force, None, None, None)
-        fields = reading.__dict__
-        fields["_block"] = self._still
-        fields["carried"] = True
-        return reading
+        return _made(time, self._no_force, self._still, None, True, None)
 
 
 _NEW = SkinReading.__new__
+
+
+def _turning(spin: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Matrix (3, 3) that a place (3,) is multiplied with, from the left, for its velocity."""
+    x, y, z = spin.tolist()
+    return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
 
 
 def _least_gaps(model: Any, body: int) -> NDArray[np.float64]:
@@ -377,12 +450,24 @@ def _least_gaps(model: Any, body: int) -> NDArray[np.float64]:
     return np.where(of_geoms == weld[body], math.inf, gaps)
 
 
-def _made(time: float, block: NDArray[np.float64], proximity: NDArray[np.float64] | None, carried: bool) -> SkinReading:
+def _made(
+    time: float,
+    force: NDArray[np.float64],
+    block: NDArray[np.float64],
+    proximity: NDArray[np.float64] | None,
+    carried: bool,
+    slip: NDArray[np.float64] | None,
+) -> SkinReading:
     """A reading of a kernel's `block`, made for it: forces, depths, vectors and wrench one after the other."""
-    reading = SkinReading.taken_over(time, block[: (len(block) - 6) // 5], proximity)
+    vectors.close(force)
+    if proximity is not None:
+        vectors.close(proximity)
+    reading = _NEW(SkinReading)
+    reading._keep(time, force, proximity, None, None)
     fields = reading.__dict__
     fields["_block"] = block
     fields["carried"] = carried
+    fields["slip"] = slip
     return reading
 
 

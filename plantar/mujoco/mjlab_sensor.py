@@ -78,10 +78,21 @@ class SkinSensor(_Sensor):
         """Bind to `mj_model`, and Warp's `model` and `data` on a `device`; RobotError as `Skin.bind`."""
         self.skin = self._skin.bind(mj_model)
         self._worlds = getattr(data, "struct", data)
-        self._device = wp.device_from_torch(torch.device(device))
+        self._torch_device = torch.device(device)
+        self._device = wp.device_from_torch(self._torch_device)
+        self._force: tuple[float, torch.Tensor] | None = None
         cone = bool(getattr(model, "struct", model).opt.cone)
         with wp.ScopedDevice(self._device):
             self._many = WarpSkin(self.skin, self._worlds.nworld, self.cfg.contacts, elliptic=cone)
+
+    @property
+    def force(self) -> torch.Tensor:
+        """Force (B, N) along each taxel's axis in N; with `faults`, what the taxels read, NaN if dead."""
+        _ = self.data  # of this step
+        time = float(self._worlds.time.numpy().max())
+        if self._force is None or time != self._force[0]:
+            self._force = time, torch.as_tensor(self._many.force(time)).float().to(self._torch_device)
+        return self._force[1].clone()
 
     @property
     def wrench(self) -> torch.Tensor:

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.common.arguments import instance, items, number, positive
+from plantar.common.arguments import instance, integer, items, number, positive
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import InputError, LayoutError, RobotError
@@ -19,10 +19,12 @@ from plantar.layouts.layout_file import read_layout
 from plantar.layouts.source_pose import SourcePose
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.mujoco.contacts import REACH
+from plantar.mujoco.layer import ElasticLayer
 from plantar.mujoco.named_id import named_id
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape, unit_vector
 from plantar.mujoco.wrapped_skin import WrappedSkin, body_surfaces, fitted_cell_area, flat_layout, wrapped_skin
+from plantar.sensing.taxel_faults import TaxelFaults
 
 _ACTIVE = 0.073  # of its robot's weight over its taxels: 0.15 kg of the papers' 86 kg over 42
 _RIM = 0.005  # m: a shoe's sole may be so much wider than the shapes that collide
@@ -62,6 +64,10 @@ class Skin:
         partial: Whether a layout may cover a small part.
         proximity: Range in m of proximity sensors; None for none.
         reach: Gap in m up to which an unloaded contact counts as near.
+        slip: Whether readings have taxels' velocity along what they touch.
+        layer: Elastic layer over the cells, which then share what presses near them; None for none.
+        faults: Of the taxels: `force` of a reading is what they read, and `vectors` what is on them; None for none.
+        seed: Of the faults' draws.
 
     Raises:
         InputError, LayoutError: If an argument is invalid.
@@ -84,6 +90,10 @@ class Skin:
         partial: bool = False,
         proximity: float | None = None,
         reach: float = REACH,
+        slip: bool = False,
+        layer: ElasticLayer | None = None,
+        faults: TaxelFaults | None = None,
+        seed: int = 0,
     ) -> None:
         self.layout = layout if layout is None or isinstance(layout, SoleLayout) else read_layout(layout)
         if self.layout is not None and not (self.layout.rotations[:, 2, 2] > 0.1).all():
@@ -105,6 +115,10 @@ class Skin:
         self.partial = partial
         self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
         self.proximity = None if proximity is None else positive(proximity, "proximity range", "m")
+        self.slip = bool(slip)
+        self.layer = None if layer is None else instance(layer, ElasticLayer, "layer")
+        self.faults = None if faults is None else instance(faults, TaxelFaults, "faults")
+        self.seed = integer(seed, "seed", 0)
         self.reach = number(reach, "reach", finite=True)
         if self.reach < 0.0:
             raise InputError(f"reach is {reach} m; allowed: 0 or more")
@@ -170,9 +184,7 @@ class Skin:
         layout = self.layout or self._fitted(model, body, shape)
         if self.layout is not None:
             self._check(layout, shape)
-        return BoundSkin(
-            model, layout, body, geoms, shape.position, shape.rotation, reach=self.reach, proximity=self.proximity
-        )
+        return BoundSkin(model, layout, body, geoms, shape.position, shape.rotation, **self._sensing())
 
     def show(self, model: Any, path: str | os.PathLike[str] | None = None) -> Any:
         """Draw the body's shapes and the skin's cells from two sides; also shapes of a skin that `bind` refuses.
@@ -212,6 +224,11 @@ class Skin:
             save_figure(figure, path)
         return figure
 
+    def _sensing(self) -> dict[str, Any]:
+        """What a bound skin reads besides contacts."""
+        names = ("reach", "proximity", "slip", "layer", "faults", "seed")
+        return {name: getattr(self, name) for name in names}
+
     def _frame(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Origin (3,) and rotation (3, 3) of the skin's frame in the body's."""
         if self.wraps:
@@ -226,7 +243,7 @@ class Skin:
         patch = self._wrapped(model, geoms)
         return BoundSkin(
             model, patch.layout, body, geoms, patch.position, patch.rotation,
-            reach=self.reach, proximity=self.proximity, make_load=patch.load, rings=patch.rings,
+            make_load=patch.load, rings=patch.rings, **self._sensing(),
         )  # fmt: skip
 
     def _wrapped(self, model: Any, geoms: list[int]) -> WrappedSkin:

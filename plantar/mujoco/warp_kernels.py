@@ -463,3 +463,30 @@ def press(sole: Sole, work: Work):
             break
         about += off
     work.carried[w] = wp.where(holds, carried, 0)
+
+
+@_kernel
+def share(sole: Sole, shares: wp.array2d(dtype=wp.float64), work: Work, out: wp.array2d(dtype=wp.vec3d)):
+    """Share forces as an elastic layer does, from `work` to `out`; a thread a world and cell."""
+    w, i = wp.tid()
+    force = wp.vec3d()
+    for j in range(sole.areas.shape[0]):
+        force += shares[i, j] * work.vectors[w, j]
+    out[w, i] = force
+
+
+@_kernel
+def check_moment(sole: Sole, shares: wp.array2d(dtype=wp.float64), work: Work, out: wp.array2d(dtype=wp.vec3d)):
+    """Clear `carried` where the shared forces have not the contacts' moment to 1e-9 of load times extent."""
+    w = wp.tid()
+    off = wp.vec3d(-work.wrench[w, 3], -work.wrench[w, 4], -work.wrench[w, 5])
+    load = wp.float64(0.0)
+    extent = wp.float64(0.0)
+    for i in range(sole.areas.shape[0]):
+        f = out[w, i]
+        p = sole.positions[i]
+        off += wp.cross(p, f)
+        load += wp.abs(f[0]) + wp.abs(f[1]) + wp.abs(f[2])
+        extent = wp.max(extent, wp.max(wp.abs(p[0]), wp.max(wp.abs(p[1]), wp.abs(p[2]))))
+    if wp.max(wp.abs(off[0]), wp.max(wp.abs(off[1]), wp.abs(off[2]))) > wp.float64(1e-9) * load * extent:
+        work.carried[w] = 0

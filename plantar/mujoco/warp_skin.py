@@ -43,6 +43,10 @@ class WarpSkin:
         if skin.is_patch:
             raise InputError("the skin is a patch that wraps, which MuJoCo Warp's form does not read; allowed: a sole")
         self._worlds = integer(worlds, "worlds", 1)
+        self._shares = None
+        if skin.layer is not None:
+            self._shares = wp.array(skin.layer.shares(skin.layout), dtype=wp.float64)
+        self._worn = None if skin.faults is None else skin.faults.worn(skin.layout, skin.seed, (self._worlds,))
         room = integer(contacts, "contacts", 1)
         self._elliptic = bool(skin.model.opt.cone) if elliptic is None else elliptic
         positions, normals, areas, widths, hull = skin.static
@@ -62,7 +66,7 @@ class WarpSkin:
         sole.turn = wp.mat33d(*skin.rotation_to_body.ravel())
         self._sole = sole
         self._work = self._room(len(skin), room)
-        self.vectors = self._work.vectors
+        self.vectors = self._work.vectors if self._shares is None else wp.zeros_like(self._work.vectors)
         self.wrench = self._work.wrench
         self.carried = self._work.carried
 
@@ -114,6 +118,20 @@ class WarpSkin:
         self._work.size.zero_()
         wp.launch(warp_kernels.gather, dim=listed.dist.shape[0], inputs=[self._sole, contacts, self._work])
         wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work], block_dim=32)
+        if self._shares is not None:
+            inputs = [self._sole, self._shares, self._work, self.vectors]
+            wp.launch(warp_kernels.share, dim=(self._worlds, len(self._skin)), inputs=inputs)
+            wp.launch(warp_kernels.check_moment, dim=self._worlds, inputs=inputs)
+
+    def force(self, time: float) -> NDArray[np.float64]:
+        """Force (worlds, n) along each taxel's axis in N of the last `read`; with faults, what the taxels read of it.
+
+        Faults are those of `TaxelFaults.worn(layout, seed, (worlds,))` at a `time` in s, applied by NumPy: on a GPU the
+        forces are copied back for it.
+        """
+        loads = self.vectors.numpy()
+        along = np.einsum("wij,ij->wi", loads, self._skin.static[1])
+        return along if self._worn is None else self._worn.read(time, along, loads)
 
     def numpy(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
         """The last force (worlds, n, 3), wrench (worlds, 6), and carried or not (worlds,)."""

@@ -1,7 +1,7 @@
 """Errors of real taxels, one model for simulations, `plantar.mujoco.Skin` and recordings.
 
-In this order: shear reads as normal force, crosstalk to neighbours, hysteresis, delay, gain, a zero (offset) that
-drifts with warmth, noise, steps (resolution), dead taxels.
+In this order: shear reads as normal force, crosstalk to neighbours, hysteresis, creep, delay, a curve, a gain and a
+zero (offset) that drift with warmth, noise, a dead band, saturation, steps (resolution), dead taxels and lost rows.
 """
 
 import math
@@ -18,11 +18,14 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.link_skin import SkinPatch
 
+CREEPING = 10.0
+"""Time constant in s with which a reading creeps under a constant load."""
+
 WARMING = 60.0
 """Time constant in s with which a sole becomes as warm as the foot in it."""
 
 _GAIN_MOST = 0.9  # either way of a taxel's gain of 1: a taxel that reads nothing is dead, which is another fault
-_SHARES = ("crosstalk", "hysteresis", "dead", "shear")
+_SHARES = ("crosstalk", "hysteresis", "creep", "dead", "rows", "shear", "temperature")
 
 
 @dataclass(frozen=True)
@@ -40,6 +43,15 @@ class TaxelFaults:
         noise: Standard deviation in N of white noise.
         resolution: Step in N of readings.
         delay: Time in s from a force to its reading.
+        curve: Share of the gain that is lost per N, in 1/N: f reads as f / (1 + curve f).
+        creep: Share by which a reading rises under a load that stays, within `CREEPING`.
+        saturation: Largest reading in N.
+        dead_band: In N, below which a taxel reads 0.
+        temperature: Standard deviation of gains' relative change when the skin is warm, after `WARMING`.
+        rows: Share of rows across the skin (taxels of one x) whose wire is broken: they read NaN.
+
+    Raises:
+        InputError: If a value is not allowed.
 
     Example:
         >>> from plantar import hex_layout
@@ -60,6 +72,12 @@ class TaxelFaults:
     noise: float = 0.0
     resolution: float = 0.0
     delay: float = 0.0
+    curve: float = 0.0
+    creep: float = 0.0
+    saturation: float = 0.0
+    dead_band: float = 0.0
+    temperature: float = 0.0
+    rows: float = 0.0
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -71,8 +89,8 @@ class TaxelFaults:
     def worn(self, layout: SoleLayout | SkinPatch, seed: int = 0, batch: tuple[int, ...] = ()) -> "WornFaults":
         """Draw the faults of one sole, or of many.
 
-        `layout`: its taxels; `seed`: of what is drawn; `batch`: dimensions of many soles, for arrays (*batch, n).
-        Returns faults, with state of hysteresis and delay.
+        `layout`: the sole's taxels, or a link's; `seed` of the draws; `batch`: dimensions of many soles, for arrays
+        (*batch, n). Returns faults, with state of hysteresis, creep and delay.
         """
         rng = np.random.default_rng(seed)
         shape = (*batch, len(layout))
@@ -80,15 +98,22 @@ class TaxelFaults:
         offsets = self.offset * rng.standard_normal(shape)
         drifts = self.drift * rng.standard_normal(shape)
         dead = rng.permuted(np.broadcast_to(np.arange(len(layout)), shape), axis=-1) < round(self.dead * len(layout))
-        return WornFaults(layout, self, gains, offsets, drifts, dead, rng)
+        warm = np.zeros(shape)
+        if self.temperature:
+            warm = np.clip(self.temperature * rng.standard_normal(shape), -_GAIN_MOST, _GAIN_MOST)
+        if self.rows:
+            row = _rows(layout)
+            lost = rng.permuted(np.broadcast_to(np.arange(row.max() + 1), (*batch, row.max() + 1)), axis=-1)
+            dead = dead | (lost < round(self.rows * (row.max() + 1)))[..., row]
+        return WornFaults(layout, self, gains, offsets, drifts, dead, rng, warm)
 
 
 class WornFaults:
     """Faults of a sole's taxels, with the state of hysteresis and delay.
 
-    `faults`: hysteresis, crosstalk, shear, noise, resolution and delay of all taxels; `gains`: gain (..., n) of each
-    taxel; `offsets` its zero in N, `drifts` the final drift of that; `dead`: whether each taxel (..., n) is dead;
-    `rng`: source of noise; None without noise (else InputError).
+    `faults`: what is the same for all taxels; `gains`: gain (..., n) of each taxel; `offsets` its zero in N, `drifts`
+    the final drift of that; `dead`: whether each taxel (..., n) is dead; `rng`: source of noise; None without noise
+    (else InputError); `warm_gains`: relative change of each gain when warm.
     """
 
     def __init__(
@@ -100,6 +125,7 @@ class WornFaults:
         drifts: NDArray[np.float64] | float = 0.0,
         dead: NDArray[np.bool_] | None = None,
         rng: np.random.Generator | None = None,
+        warm_gains: NDArray[np.float64] | float = 0.0,
     ) -> None:
         if faults.noise > 0.0 and rng is None:
             raise InputError("taxel noise needs a random generator; pass rng=numpy.random.default_rng(seed)")
@@ -108,6 +134,7 @@ class WornFaults:
         self.offsets = offsets
         self.drifts = drifts
         self.dead = dead
+        self.warm_gains = warm_gains
         self.spread = crosstalk_matrix(layout, faults.crosstalk)
         self._rng = rng
         self.reset()
@@ -115,6 +142,8 @@ class WornFaults:
     def reset(self) -> None:
         """Clear the state; the noise continues."""
         self._held = np.zeros(self.gains.shape)
+        self._crept = np.zeros(self.gains.shape)
+        self._creeps_from: float | None = None
         self._late: deque[tuple[float, NDArray[np.float64]]] = deque()
 
     def read(self, time: float, force: ArrayLike, vectors: ArrayLike | None = None) -> NDArray[np.float64]:
@@ -133,12 +162,20 @@ class WornFaults:
             pulled = array(vectors, "force vectors", (*pressed.shape, 3), ReadingError, finite=True)
             pressed = pressed + faults.shear * np.linalg.norm(pulled[..., :2], axis=-1)
         pressed = self.rubbed(pressed)
+        if faults.creep:
+            pressed = self._creeping(time, pressed)
         if faults.delay:
             pressed = self._delayed(time, pressed)
+        if faults.curve:
+            pressed = pressed / (1.0 + faults.curve * np.abs(pressed))
         warm = -math.expm1(-max(time, 0.0) / WARMING)
-        read = self.gains * pressed + self.offsets + warm * self.drifts
+        read = self.gains * (1.0 + warm * self.warm_gains) * pressed + self.offsets + warm * self.drifts
         if faults.noise and self._rng is not None:
             read = read + self._rng.normal(0.0, faults.noise, read.shape)
+        if faults.dead_band:
+            read = np.where(np.abs(read) < faults.dead_band, 0.0, read)
+        if faults.saturation:
+            read = np.clip(read, -faults.saturation, faults.saturation)
         if faults.resolution:
             read = faults.resolution * np.round(read / faults.resolution)
         return np.asarray(read if self.dead is None else np.where(self.dead, np.nan, read))
@@ -149,6 +186,13 @@ class WornFaults:
         h = self.faults.hysteresis
         self._held = np.minimum(np.maximum(self._held, (1.0 - h) * spread), (1.0 + h) * spread)
         return self._held
+
+    def _creeping(self, time: float, force: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Forces plus what has crept: a first-order lag of them."""
+        passed = 0.0 if self._creeps_from is None else max(time - self._creeps_from, 0.0)
+        self._creeps_from = time
+        self._crept = self._crept - math.expm1(-passed / CREEPING) * (force - self._crept)
+        return np.asarray(force + self.faults.creep * self._crept)
 
     def _delayed(self, time: float, force: NDArray[np.float64]) -> NDArray[np.float64]:
         """Force one delay ago, interpolated; at first the first."""
@@ -163,6 +207,17 @@ class WornFaults:
             return first
         share = (due - before) / (after - before)
         return np.asarray(first + share * (second - first))
+
+
+def _rows(layout: SoleLayout | SkinPatch) -> NDArray[np.int64]:
+    """Number of each taxel's row: those whose x is the same, to a quarter of a cell."""
+    width = math.sqrt(float(np.median(layout.areas)))
+    x = layout.positions[:, 0]
+    order = np.argsort(x, kind="stable")
+    begins = np.diff(x[order], prepend=x[order[0]]) > 0.25 * width
+    rows = np.empty(len(x), dtype=np.int64)
+    rows[order] = np.cumsum(begins)
+    return rows
 
 
 def crosstalk_matrix(layout: SoleLayout | SkinPatch, crosstalk: float) -> NDArray[np.float64]:

@@ -15,6 +15,7 @@ from plantar.errors import InputError
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.mujoco import Skin
+from plantar.sensing.taxel_faults import TaxelFaults
 
 spec = spec_from_file_location("skin_models", Path(__file__).parent / "conftest.py")
 models = module_from_spec(spec)
@@ -324,3 +325,62 @@ def test_forces_do_not_jump_as_the_foot_rolls():
 
     for x in np.linspace(0.0, 0.03, 100):
         assert np.abs(shares(x + 1e-6) - shares(x)).max() < 1e-3
+
+
+def point_velocity(model, data, body, point):
+    """Velocity (3,) of a point of a body in the world, by MuJoCo's Jacobian."""
+    jacobian = np.zeros((3, model.nv))
+    mujoco.mj_jac(model, data, jacobian, None, point, body)
+    return jacobian @ data.qvel
+
+
+@pytest.mark.parametrize("way", [{}, {"outward": (0, 0, -1)}])
+@pytest.mark.parametrize("kind", ["box", "moving ground", "spheres"])
+def test_slip_is_the_velocity_along_what_a_taxel_touches(kind, way):
+    model = mujoco.MjModel.from_xml_string(KINDS[kind])
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, 200)
+    foot = model.body("foot").id
+    first = model.jnt_dofadr[model.body_jntadr[foot]]
+    data.qvel[first : first + 6] += [0.3, -0.2, 0.0, 0.0, 0.0, 1.5]
+    mujoco.mj_forward(model, data)
+    feel = Skin(body="foot", slip=True, **way).bind(model)
+    reading = feel(data)
+    pose = feel.pose(data)
+    ground = 1 if kind == "moving ground" else 0
+    loaded = np.flatnonzero(reading.force > 0.0)
+    assert len(loaded) > 3
+    for i in loaded:
+        at = pose.position_in_world + pose.rotation_sole_to_world @ feel.layout.positions[i]
+        off = point_velocity(model, data, foot, at) - point_velocity(model, data, ground, at)
+        axis = pose.rotation_sole_to_world @ feel.layout.rotations[i][:, 2]
+        along = pose.rotation_sole_to_world.T @ (off - axis * (axis @ off))
+        assert np.abs(reading.slip[i] - along).max() < 1e-9
+    assert np.linalg.norm(reading.slip[loaded], axis=1).max() > 0.3
+    assert not np.delete(reading.slip, loaded, axis=0)[reading.force[np.setdiff1d(range(len(feel)), loaded)] == 0].any()
+    assert Skin(body="foot", **way).bind(model)(data).slip is None
+    data.qpos[model.jnt_qposadr[model.body_jntadr[foot]] + 2] += 1.0
+    mujoco.mj_forward(model, data)
+    assert not feel(data).slip.any()
+
+
+def test_faults_are_those_of_the_seed_and_leave_the_truth():
+    model = mujoco.MjModel.from_xml_string(KINDS["box"])
+    faults = TaxelFaults(0.1, 0.5, 0.3, 0.1, 0.15, 0.1, 0.2, 0.0, 0.02, 0.013, 0.01, 0.1, 30.0, 0.2, 0.1, 0.2)
+    feel, plain = Skin(body="foot", faults=faults, seed=4).bind(model), Skin(body="foot").bind(model)
+    worn = faults.worn(feel.layout, 4)
+    data = mujoco.MjData(model)
+    for run in range(2):
+        mujoco.mj_resetData(model, data)
+        worn.reset()
+        for _ in range(30):
+            mujoco.mj_step(model, data)
+            truth, read = plain(data), feel(data)
+            assert np.array_equal(read.vectors, truth.vectors)
+            assert np.array_equal(read.wrench, truth.wrench)
+            expected = worn.read(data.time, truth.force, truth.vectors)
+            assert np.array_equal(read.force, expected, equal_nan=True), run
+    assert np.isnan(read.force).any()
+    data.efc_force[:] = np.nan
+    assert np.isnan(feel(data).force).all()  # diverged
+    assert pickle.loads(pickle.dumps(read)).force.tobytes() == read.force.tobytes()

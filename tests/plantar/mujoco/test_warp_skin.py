@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from plantar import InputError
-from plantar.mujoco import Skin
+from plantar.mujoco import ElasticLayer, Skin
 from plantar.mujoco.warp_skin import WarpSkin
+from plantar.sensing.taxel_faults import TaxelFaults
 
 wp = pytest.importorskip("warp")
 mjw = pytest.importorskip("mujoco_warp")
@@ -87,3 +88,26 @@ def test_a_patch_that_wraps_is_refused():
     feel = Skin(body="foot", outward=(0, 0, -1)).bind(mujoco.MjModel.from_xml_string(models.box()))
     with pytest.raises(InputError, match="patch that wraps"):
         WarpSkin(feel, 2)
+
+
+def test_layer_and_faults_are_those_of_the_skin():
+    model = mujoco.MjModel.from_xml_string(models.box())
+    layer = ElasticLayer(1e6, 0.05)
+    faults = TaxelFaults(0.1, 0.5, 0.3, 0.1, 0.15, 0.1, 0.2, 0.03, 0.02, 0.013, 0.01, 0.1, 30.0, 0.2, 0.1, 0.2)
+    feel = Skin(body="foot", layer=layer, faults=faults, seed=3).bind(model)
+    soft = Skin(body="foot", layer=layer).bind(model)
+    many = WarpSkin(feel, 3)
+    worn = faults.worn(feel.layout, 3, (3,))
+    data = mujoco.MjData(model)
+    for _ in range(4):
+        mujoco.mj_step(model, data, 40)
+        mujoco.mj_forward(model, data)
+        many.read(mjw.put_data(model, data, nworld=3))
+        truth = soft(data)
+        load = max(float(np.linalg.norm(truth.wrench[:3])), 1.0)
+        vectors, _, carried = many.numpy()
+        assert np.abs(vectors - truth.vectors).max() < 1e-5 * load
+        assert (carried == truth.carried).all()
+        along = np.einsum("wij,ij->wi", vectors, feel.static[1])
+        # The same draws, on forces that differ by MuJoCo Warp's float32 alone.
+        assert np.array_equal(many.force(data.time), worn.read(data.time, along, vectors), equal_nan=True)

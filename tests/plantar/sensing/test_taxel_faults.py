@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from plantar import InputError, ReadingError, hex_layout
 from plantar.sensing.identify_faults import identify_faults
-from plantar.sensing.taxel_faults import WARMING, TaxelFaults
+from plantar.sensing.taxel_faults import CREEPING, WARMING, TaxelFaults
 
 SOLE = hex_layout([[-0.1, -0.05], [0.12, -0.05], [0.12, 0.05], [-0.1, 0.05]])
 N = len(SOLE)
@@ -136,3 +136,55 @@ def test_recordings_that_identify_nothing_are_refused():
         identify_faults(SOLE, time, force, np.full_like(read, np.nan))
     with pytest.raises(ReadingError, match="shape"):
         identify_faults(SOLE, time, force, read[:, :-1])
+
+
+def test_a_curve_takes_gain_as_the_load_rises():
+    read = TaxelFaults(curve=0.02).worn(SOLE).read(0.0, np.linspace(0.0, 50.0, N))
+    assert np.allclose(read, np.linspace(0.0, 50.0, N) / (1.0 + 0.02 * np.linspace(0.0, 50.0, N)))
+
+
+def test_a_reading_creeps_under_a_load_that_stays_and_back_after_it():
+    worn = TaxelFaults(creep=0.2).worn(SOLE)
+    press = np.full(N, 10.0)
+    times = np.arange(0.0, 3.0 * CREEPING, 0.05)
+    read = np.array([worn.read(t, press)[0] for t in times])
+    assert np.allclose(read, 10.0 * (1.2 - 0.2 * np.exp(-times / CREEPING)), atol=1e-9)
+    after = worn.read(times[-1], np.zeros(N))[0]
+    assert after == pytest.approx(read[-1] - 10.0)
+    worn.reset()
+    assert worn.read(0.0, press)[0] == 10.0
+
+
+def test_small_forces_read_nothing_and_large_ones_the_same():
+    read = TaxelFaults(dead_band=1.0, saturation=20.0).worn(SOLE).read(0.0, np.linspace(0.0, 40.0, N))
+    truth = np.linspace(0.0, 40.0, N)
+    assert not read[truth < 1.0].any()
+    assert (read[truth > 20.0] == 20.0).all()
+    between = (truth >= 1.0) & (truth <= 20.0)
+    assert np.array_equal(read[between], truth[between])
+
+
+def test_gains_change_as_the_skin_warms():
+    worn = TaxelFaults(temperature=0.1).worn(SOLE, 2)
+    press = np.full(N, 10.0)
+    assert np.array_equal(worn.read(0.0, press), press)
+    warm = worn.read(20.0 * WARMING, press)
+    assert warm.std() == pytest.approx(1.0, rel=0.3)
+    assert np.allclose(worn.read(20.0 * WARMING, 2.0 * press), 2.0 * warm)
+
+
+def test_lost_rows_lie_across_the_sole():
+    lost = np.isnan(TaxelFaults(rows=0.25).worn(SOLE, 5).read(0.0, np.full(N, 3.0)))
+    assert lost.any()
+    x = np.round(SOLE.positions[:, 0], 6)
+    for place in np.unique(x):
+        assert lost[x == place].all() or not lost[x == place].any()
+    rows = len(np.unique(x))
+    assert len(np.unique(x[lost])) == round(0.25 * rows)
+
+
+def test_new_faults_leave_the_draws_of_the_others():
+    old = TaxelFaults(gain=0.1, offset=0.5).worn(SOLE, 9, (3,))
+    new = TaxelFaults(gain=0.1, offset=0.5, temperature=0.1, rows=0.1, creep=0.1).worn(SOLE, 9, (3,))
+    assert np.array_equal(old.gains, new.gains)
+    assert np.array_equal(old.offsets, new.offsets)
