@@ -135,7 +135,8 @@ ELSEWHERE = {
     "introduce_robot",  # sim/survey/test_introduce.py
     "other_plant",  # test_plant_example.py
     "record_to_tables",  # below, on the recording of another one
-    "skin_arm",  # test_skin_examples.py
+    "skin_any_arm",  # test_skin_examples.py
+    "skin_arm",
     "skin_new_task",
     "walk_unitree",  # below, against a stub of its SDK
     "gallery",  # test_gallery.py

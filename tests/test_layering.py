@@ -75,7 +75,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         ),
         *("custom", "c3d_export", "exports", "analyse"),
     ),
-    "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
+    "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver", "held_gains"),
     "plantar.robots": (
         *("robot_tables", "biped", "robot", "robot_file", "leg_shapes", "model_file", "kinematics", "walk"),
         *("motors", "sole_readings", "controller_settings", "start", "bring_up", "controller", "survey"),

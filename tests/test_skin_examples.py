@@ -23,6 +23,13 @@ def test_an_arm_gives_way_and_keeps_its_tip(repository):
     assert float(re.search(r"gave way by (\d+) mm", text)[1]) > 40.0
 
 
+def test_an_arm_of_any_model_is_guided_by_touches(repository):
+    text = run("skin_any_arm", repository)
+    assert float(re.search(r"(\d+) N at most", text)[1]) > 5.0
+    moved = [float(v) for v in re.search(r"moved by \[(.*)\] mm", text)[1].split()]
+    assert sum(v * v for v in moved) > 20.0**2
+
+
 def test_a_task_of_ones_own_is_kept(repository):
     with_it, without = map(float, re.findall(r"turns by ([\d.]+) degrees", run("skin_new_task", repository)))
     assert with_it < 0.5
@@ -33,6 +40,7 @@ def test_the_page_of_skins_runs_as_it_is_printed(repository, tmp_path):
     """But what needs MuJoCo Warp, mjlab or a window."""
     (tmp_path / "robot.xml").write_text("""<mujoco><worldbody><geom type="plane" size="1 1 .1"/>
       <body name="left_ankle_roll_link" pos="0 0 .02"><freejoint/><geom type="box" size=".12 .05 .02"/></body>
+      <body name="right_ankle_roll_link" pos="0 -.2 .02"><freejoint/><geom type="box" size=".12 .05 .02"/></body>
       </worldbody></mujoco>""")
     page = (repository / "docs" / "skin.md").read_text("utf-8")
     blocks = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
