@@ -3,10 +3,10 @@
 python tools/stranger.py [--extras "" sim shoes sim,gym] [--wheel FILE] [--python PYTHON] [--only TEXT] [--limit S]
 
 The wheel is built once and installed in a fresh environment for each set of extras. Every fenced block of Python and of
-the shell, and every example, then runs in a process of its own, a page's in one folder, in order. Each must end in one
-of five ways: done; still at work when its time is over; the line that gives the command for a library that none of the
-installed extras brings; the absence of one; or one line on a file of the user's that is not there. Anything else is
-printed, and the exit code is 1.
+the shell, every example and every door of the library then runs in a process of its own, a page's in one folder, in
+order. Each must end in one of five ways: done; still at work when its time is over; the line that gives the command for
+a library that none of the installed extras brings; the absence of one; or one line on a file of the user's that is not
+there. Anything else is printed, and the exit code is 1.
 """
 
 import argparse
@@ -48,6 +48,26 @@ _NOT_RUN = (
 _BROUGHT = {"shoes": {"OCP"}}  # by an extra's libraries in turn
 _OTHER_LIBRARIES = {"torch", "jax", "mjlab", "pandas", "mine", "mink", "unitree_sdk2py", "imageio"}
 """Of pages on other people's packages, or yours."""
+
+
+DOORS = (
+    "plantar.read(insole)",
+    "plantar.analyse(insole)",
+    "plantar.sole(robot, 8.0)",
+    "plantar.view([robot], 'view.html')",
+    "plantar.load_robot('h1')",
+    "plantar.load_controller('h1')",
+    "plantar.load_scene('flat')",
+    "plantar.run('flat', steps=2)",
+    "plantar.mujoco.Skin(body='foot')",
+    "plantar.shoes.foot_from_dimensions('box', length=0.25, width=0.1)",
+)
+"""Doors with arguments that are there; `insole` and `robot` are the recordings that each wheel has."""
+_BEFORE_A_DOOR = """
+import plantar, plantar.shoes
+from importlib.resources import files
+insole, robot = (files("plantar.commands") / "small_demo" / name for name in ("insole.asc", "robot.mcap"))
+"""
 
 
 class Block(NamedTuple):
@@ -131,6 +151,13 @@ class Stranger:
                 with tempfile.TemporaryDirectory() as folder:
                     self._judge(place, self._run([str(self.python), str(example)], Path(folder)))
 
+    def try_doors(self, only: str) -> None:
+        """Each door, called with what is there."""
+        for door in DOORS:
+            if only in door:
+                with tempfile.TemporaryDirectory() as folder:
+                    self._judge(door, self._run([str(self.python), "-c", _BEFORE_A_DOOR + door], Path(folder)))
+
     def _try_block(self, block: Block, before: str, folder: Path) -> None:
         if block.language == "sh":
             for line in lines_of(block):
@@ -201,6 +228,7 @@ def main() -> int:
         for number, extras in enumerate(given.extras[:1] if wheel is None else given.extras):
             python = given.python if wheel is None else installed(wheel, extras, Path(made) / str(number))
             stranger = Stranger(python.absolute(), extras, given.limit)
+            stranger.try_doors(given.only)
             stranger.try_pages(given.only)
             stranger.try_examples(given.only)
             print(f"[{extras or 'bare'}]", stranger.counts)

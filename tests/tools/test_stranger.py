@@ -65,3 +65,20 @@ def test_every_page_has_blocks_or_none_that_are_missed(stranger):
     found = [block for page in stranger.PAGES for block in stranger.blocks_of(page)]
     assert {block.language for block in found} == {"python", "sh"}
     assert any(block.place.startswith("docs/learning.md") for block in found)
+
+
+def test_every_door_of_the_library_is_tried(stranger):
+    import plantar
+
+    called = {door.partition("(")[0].split(".")[1] for door in stranger.DOORS}
+    functions = {"read", "analyse", "sole", "view", "load_robot", "load_controller", "load_scene", "run"}
+    assert functions | {"mujoco", "shoes"} == called
+    assert all(callable(getattr(plantar, name)) for name in functions)
+
+
+def test_a_broken_door_is_found(stranger, tmp_path, monkeypatch):
+    monkeypatch.setattr(stranger, "DOORS", ("plantar.read(insole)", "plantar.reed(insole)"))
+    tried = stranger.Stranger(Path(sys.executable), "")
+    tried.try_doors("")
+    assert tried.counts == {"done": 1, "broken": 1}
+    assert tried.broken[0].startswith("plantar.reed")
