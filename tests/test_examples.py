@@ -36,8 +36,8 @@ QUICK = {
     ),
     "sole_insole": Example(r"7 sensors carry (\d+) N", holds=lambda load: load == 650),
     "sole_other_cells": Example(
-        r"square: (\d+) .* carry (\S+) N.*fsr_402: (\d+) .* carry (\S+) N.*sheet: (\d+) .* carry (\S+) N",
-        holds=lambda few, a, films, b, many, c: few < films < many and min(a, b, c) > 245.0,
+        r"fsr_402_short: (\d+) .* carry (\S+) N.*velostat: (\d+) .* carry (\S+) N.*fx29_100: (\d+) .* carry (\S+) N",
+        holds=lambda films, a, many, b, few, c: few == 4 < films < many and min(a, b, c) > 245.0,
     ),
     "sole_curved": Example(
         r"flat: .* force \+(\S+) N forward.*rocker: heel and toe (\d+) mm up, force \+(\S+) N",
@@ -92,6 +92,10 @@ QUICK = {
     "record_own_metric": Example(r"left: (\d+) steps, forefoot loaded (\S+) ", holds=lambda n, t: n == 10 and t > 0.2),
     "shoe_from_any_foot": Example(
         r"a box: .* (\d+) whole.*an ellipse: .* (\d+) whole.*h1: .* (\d+) whole", holds=lambda *n: min(n) > 20
+    ),
+    "shoe_wired": Example(
+        r"floating: .* reads (\S+) %.*solved: .* reads (\S+) %.*taxel (\d+) rose by (\d+) counts, the next by (\d+)",
+        holds=lambda ghost, left, taxel, most, next_: ghost > 5 > left and taxel == 20 and most > 100 * next_,
     ),
     "shoe_in_cadquery": Example(
         r"(\S+) cm\^3, valid: True, the hole takes (\d+) mm", holds=lambda volume, taken: volume > 50 and taken > 10
