@@ -21,6 +21,7 @@ from plantar.sensing.reading import Reading
 _HEAD = struct.Struct("<2sBBHIH")
 _START = b"PL\x01"
 _WRAP = 1 << 32  # us
+_MOST = 16 * 32  # taxels: rows and columns that one firmware reads
 
 
 def _open(address: str, layout: SoleLayout | None) -> LiveStream:
@@ -33,7 +34,7 @@ def _open(address: str, layout: SoleLayout | None) -> LiveStream:
 
 
 def packets_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Iterator[Arrival]:
-    """Yields readings of packets in bytes as they come, for some `soles`; an empty chunk is silence.
+    """Yields readings of packets in `chunks` of bytes as they come, for some `soles`; an empty chunk is silence (None).
 
     What is no packet is a fault "garbled", once for bytes that follow each other; packets that the sender counted and
     that did not come are one "dropped".
@@ -60,9 +61,12 @@ def packets_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Ite
             _, _, number, sequence, time, count = _HEAD.unpack_from(rest)
             side = SIDES[number % len(SIDES)]
             size = _HEAD.size + 2 * count
-            if number >= len(SIDES) or side not in soles or count != len(soles[side]):
+            ours = number < len(SIDES) and side in soles and count == len(soles[side])
+            if len(rest) < size + 2 and (ours or count <= _MOST):
+                break
+            if not ours:
                 # by its check sum a packet of another sole, else bytes that look like the beginning of one
-                known = len(rest) >= size + 2 and _checked(rest, size)
+                known = count <= _MOST and _checked(rest, size)
                 if known:
                     wanted = ", ".join(f"{len(sole)} of the {one} sole" for one, sole in soles.items())
                     yield Fault("garbled", f"a packet holds {count} values of side {number}; allowed: {wanted}")
@@ -70,8 +74,6 @@ def packets_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Ite
                 skipped += 0 if known else 1
                 rest = rest[step:]
                 continue
-            if len(rest) < size + 2:
-                break
             if not _checked(rest, size):
                 skipped += 1
                 rest = rest[1:]
@@ -79,11 +81,11 @@ def packets_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Ite
             if skipped:
                 yield Fault("garbled", f"{skipped} bytes are no packet, or one with a wrong check sum")
                 skipped = 0
-            missing = clocks[side].missing(sequence)
+            missing = clocks[side].missing(sequence, time)
             if missing:
                 yield Fault("dropped", f"{missing} packets of the {side} sole before number {sequence} did not come")
             values = np.frombuffer(rest, "<u2", count, _HEAD.size).astype(np.float64)
-            yield side, Reading(clocks[side].seconds(time), values)
+            yield side, Reading(clocks[side].seconds(), values)
             rest = rest[size + 2 :]
     if rest or skipped:
         yield Fault("cut", f"{len(rest) + skipped} bytes at the end are no whole packet")
@@ -94,27 +96,29 @@ def _checked(packet: bytes, size: int) -> bool:
 
 
 class _Clock:
-    """Sequence and time of a sender, whose counters wrap."""
+    """Sequence and time of a sender, whose counters wrap, and begin again where it restarts."""
 
     def __init__(self) -> None:
         self._sequence: int | None = None
         self._time = 0
         self._turns = 0
 
-    def missing(self, sequence: int) -> int:
+    def missing(self, sequence: int, time: int) -> int:
         """Packets that were counted since the last one and did not come; none after a restart."""
         before = self._sequence
         self._sequence = sequence
-        if before is None:
-            return 0
-        passed = (sequence - before - 1) % (1 << 16)
-        return passed if passed < 1 << 15 else 0
-
-    def seconds(self, time: int) -> float:
+        # Packets come in order, so a time that is less by no more than half of the counter is of a restart.
+        back = 0 < self._time - time <= _WRAP // 2
         if self._time - time > _WRAP // 2:
             self._turns += 1
+        elif back:
+            self._turns = 0
         self._time = time
-        return 1e-6 * (time + self._turns * _WRAP)
+        return 0 if before is None or back else (sequence - before - 1) % (1 << 16)
+
+    def seconds(self) -> float:
+        """Time of the last packet, in s since the sender's start."""
+        return 1e-6 * (self._time + self._turns * _WRAP)
 
 
 SOURCE = LiveSource("packets", "Packets of a sole's firmware on a serial port: packets:DEVICE@BAUD", _open)

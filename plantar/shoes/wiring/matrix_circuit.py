@@ -48,7 +48,10 @@ def column_voltages(conductances: Array, row: int, *, sense: float, driver: floa
 
 
 def read_conductances(conductances: Array, circuit: Circuit, *, driver: float = DRIVER) -> Array:
-    """What a circuit makes of the conductances (r, c) of taxels, in S.
+    """Gives what a `circuit` reads of the `conductances` (rows, columns) of taxels, in S, by nodal analysis.
+
+    `driver`: conductance of the outputs that drive the rows, in S. Rows that are not read are open ("floating") or
+    driven to ground (the others).
 
     Example:
         >>> alone = np.array([[2e-4, 0.0], [0.0, 0.0]])
@@ -63,9 +66,8 @@ def read_conductances(conductances: Array, circuit: Circuit, *, driver: float = 
     levels = np.array([rows for _, rows in found])
     if circuit == "virtual_ground":
         return np.asarray(sense * volts / np.diag(levels)[:, None])
-    if (
-        circuit == "solved"
-    ):  # of each column, sum of G (row's voltage - column's) = sense x column's, whichever row is driven
+    if circuit == "solved":
+        # Of each column, the sum of G x (row's voltage - column's) is the sense's current, whichever row is driven.
         systems = levels[None] - volts.T[:, :, None]
         return np.asarray(np.linalg.solve(systems, sense * volts.T[..., None])[..., 0].T)
     return np.asarray(sense * volts / (1.0 - volts))  # a divider of one taxel and the resistor

@@ -100,7 +100,8 @@ class Wiring:
 
 def wiring_of(shoe: Shoe, parameters: ShoeParameters, tail: tuple[str, ...] = ()) -> Wiring | None:
     """Gives the wiring of a shoe, by parameters; None of a laboratory's cells, whose wiring is not published, and of
-    cells without ways for a cable. `tail`: nets of a sheet's tail, line by line.
+    cells without ways for a cable. `tail`: nets of a sheet's tail, line by line. Raises FootError for more cells
+    than one board reads.
     """
     cell = shoe.plan.cell
     if cell is None or cell.circuit == "own" or not shoe.plan.connectors:

@@ -54,7 +54,7 @@ def test_what_is_lost_wrong_or_strange_is_said_and_the_rest_comes():
     wrong[20] ^= 1
     strange = packet(3, 30_000, values=np.arange(5))
     data = (
-        packet(0, 0) + bytes(wrong) + b"T12 400\n" + packet(2, 20_000) + strange + packet(6, 60_000) + packet(7, 0)[:30]
+        packet(0, 0) + bytes(wrong) + b"T12 400\n" + packet(2, 20_000) + strange + packet(6, 60_000) + packet(7, 0)[:-1]
     )
     found, faults = arrivals(data)
     assert [round(r.time, 3) for _, r in found] == [0.0, 0.02, 0.06]
