@@ -1,12 +1,13 @@
 """`plantar live`: record soles as their readings come."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 from typer import Argument, Option
 
 from plantar.common.console.command import Command, Json, end_command
+from plantar.common.console.ending import print_note
 from plantar.common.console.progress import progress_bar
 
 
@@ -20,21 +21,29 @@ def live(
     ] = None,
     counts: Annotated[
         bool,
-        Option("--counts", help="Values are counts: forces follow by the layout's calibration (plantar calibrate)."),
+        Option("--counts", help="Values are counts, for the layout's calibration."),
     ] = False,
     correct_clocks: Annotated[bool, Option("--correct-clocks", help="Put both soles on the left one's clock.")] = False,
     strict: Annotated[bool, Option("--strict", help="End with exit 2 at what is not a reading in order.")] = False,
+    page: Annotated[bool, Option("--page", help="Show it in the browser as it comes, on this machine.")] = False,
+    page_address: Annotated[
+        str | None, Option(metavar="HOST:PORT", help="Where, such as :8080; 0.0.0.0:8080 for others.")
+    ] = None,
     output: Annotated[Path, Option("-o", "--output", help="The recording to write.")] = Path("out/live.mcap"),
     as_json: Json = False,
 ) -> None:
     """Record soles as their readings come, and show load and center of pressure.
 
     What is not a reading, repeats, restarts, gaps and clocks that differ are counted, and events in the recording.
-    It opens in plantar analyze, plantar view and Foxglove.
+    It opens in plantar analyze, plantar view and Foxglove. With --page both soles are shown as they come: forces, CoP
+    and its trail, polygon, steps, cadence and symmetry, with buttons for zero, mark and record, and feedback above a
+    force.
 
     Example: my_insole | plantar live lines --layout layout_left.json -o walk.mcap
 
     Example: plantar live serial:/dev/ttyACM0 --layout layout_left.json --kind insole
+
+    Example: plantar live udp:9870 --layout layout_left.json --page
 
     Example: plantar live replay:run.mcap --seconds 5 --send udp:9871
     """
@@ -49,9 +58,25 @@ def live(
     sole = None if layout is None else read_layout(layout)
     stream = open_live(source, sole, strict=strict, correct=correct_clocks, kind=kind, counts=counts)
     with parent_folder(output), progress_bar() as progress:
-        found = {"file": str(output), **record(stream, output, seconds, progress, sinks)}
+        if page:
+            found = _with_page(stream, source, page_address, output, seconds, progress, sinks)
+        else:
+            found = {"file": str(output), **record(stream, output, seconds, progress, sinks)}
     lines = [f"{found['seconds']:.1f} s recorded", *_feet_lines(found), *_fault_lines(found), f"  {output}"]
     end_command(found, as_json, "\n".join(lines))
+
+
+def _with_page(
+    stream: Any, source: str, address: str | None, output: Path, seconds: float, progress: Any, sinks: Sequence[Any]
+) -> dict[str, Any]:
+    from plantar.live.udp import host_and_port
+    from plantar.viewer.live_page import LivePage
+    from plantar.viewer.live_session import record_with_page
+
+    host, port = ("127.0.0.1", 0) if address is None else host_and_port(address, "page")
+    with LivePage(stream.soles, f"Live: {source}", host, port) as shown:
+        print_note(f"page: {shown.url}")
+        return {"file": str(output), **record_with_page(stream, shown, output, seconds, progress, sinks)}
 
 
 def _feet_lines(found: Mapping[str, Any]) -> list[str]:

@@ -72,12 +72,12 @@ def view_text(written: Mapping[str, Any]) -> str:
 def _pieces(walks: Sequence[Walk]) -> Iterator[str]:
     parts = {
         "TITLE": html.escape(" and ".join(walk.name for walk in walks)),
-        "STYLE": _asset("view.css"),
+        "STYLE": asset("view.css"),
         "VIEWS": "\n".join(_view(number, walk, len(walks) == 1) for number, walk in enumerate(walks)),
         "DATA": "{{DATA}}",
-        "SCRIPT": _three() + _asset("view.js"),
+        "SCRIPT": _three() + asset("soles.js") + asset("view.js"),
     }
-    text = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _asset("view.html"))
+    text = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("view.html"))
     before, _, after = with_policy(text).rpartition("{{DATA}}")
     yield before
     for number, walk in enumerate(walks):
@@ -87,12 +87,13 @@ def _pieces(walks: Sequence[Walk]) -> Iterator[str]:
     yield "]" + after
 
 
-def _asset(name: str) -> str:
+def asset(name: str) -> str:
+    """Text of a file of the viewer."""
     return package_files("plantar.viewer").joinpath(name).read_text(encoding="utf-8")
 
 
 def _three() -> str:
-    code = _asset("three.module.min.js")
+    code = asset("three.module.min.js")
     exported = _EXPORT.search(code)
     assert exported is not None, "three.module.min.js ends with its exports"
     members = ",".join(f"{name[-1]}:{name[0]}" for name in (e.split(" as ") for e in exported[1].split(",")))

@@ -1,0 +1,103 @@
+"""Heel strikes and toe offs of one foot as its readings come, with the time until each is known."""
+
+from collections import deque
+from typing import NamedTuple
+
+_STRIKE = 0.05  # of the range from rest to peak: `plantar.gait.analysis` puts events there, too
+_CONTACT = 0.10  # of it, which a heel strike has to reach to count
+_NOISE = 4.0  # standard deviations that a level lies above rest
+_CONTACT_NOISE = 8.0
+_LEAST_PEAK = 20.0  # N that a foot has to reach: what lies below is no step
+_FORGOTTEN = 8.0  # s after which half of a peak is forgotten
+_SHORTEST_SWING = 0.10  # s off the ground, below which a contact goes on
+_FOLLOWED = 50  # readings over which rest and noise are followed
+
+
+class StepEvent(NamedTuple):
+    """A heel strike or toe off, named by `kind`, at a `time` in s that was known `delay` in s later."""
+
+    kind: str
+    time: float
+    delay: float
+
+
+class StepDetector:
+    """Contacts of one foot by its vertical force; nothing but what has come is used.
+
+    A heel strike lies where the force rises through 5 % of the range from rest to peak, and is known when 10 % are
+    reached. A toe off lies where it falls through 5 %, and is known 0.1 s later: until then the foot may be set on
+    again.
+
+    Attribute `loaded`: whether the foot carries.
+
+    Example:
+        >>> import math
+        >>> detector, events = StepDetector(), []
+        >>> for k in range(300):  # two steps of 0.6 s
+        ...     events += detector.take(0.01 * k, max(0.0, 700.0 * math.sin(k * math.pi / 60.0)))
+        >>> [(event.kind, round(event.time, 2)) for event in events]
+        [('strike', 0.0), ('off', 0.59), ('strike', 1.21), ('off', 1.79), ('strike', 2.41)]
+    """
+
+    def __init__(self) -> None:
+        self.loaded = False
+        self._peak = 0.0
+        self._rest = 0.0
+        self._spread = 0.0
+        self._last: tuple[float, float] | None = None
+        self._rose: float | None = None
+        self._fell: float | None = None
+        self._rests: deque[float] = deque(maxlen=_FOLLOWED)
+
+    def take(self, time: float, force: float) -> list[StepEvent]:
+        """Events that a `force` in N at a `time` in s settles; none where the force is NaN."""
+        if force != force or (self._last is not None and time <= self._last[0]):
+            return []
+        before = self._last or (time, self._rest)
+        self._last = (time, force)
+        self._peak = max(force, self._rest + (self._peak - self._rest) * 0.5 ** ((time - before[0]) / _FORGOTTEN))
+        span = self._peak - self._rest
+        level = self._rest + max(_STRIKE * span, _NOISE * self._spread)
+        events: list[StepEvent] = []
+        if self.loaded:
+            self._while_loaded(before, time, force, level, events)
+        else:
+            self._while_lifted(before, time, force, level, span, events)
+        return events
+
+    def _while_loaded(
+        self, before: tuple[float, float], time: float, force: float, level: float, events: list[StepEvent]
+    ) -> None:
+        if force >= level:
+            self._fell = None
+        elif self._fell is None:
+            self._fell = _crossing(before, time, force, level)
+        if self._fell is not None and time - self._fell >= _SHORTEST_SWING:
+            events.append(StepEvent("off", self._fell, time - self._fell))
+            self.loaded = False
+            self._fell = None
+            self._rose = None
+
+    def _while_lifted(
+        self, before: tuple[float, float], time: float, force: float, level: float, span: float, events: list[StepEvent]
+    ) -> None:
+        if force < level:
+            self._rose = None
+            self._rests.append(force)
+            if len(self._rests) == _FOLLOWED:
+                self._rest = sum(self._rests) / _FOLLOWED
+                self._spread = (sum((value - self._rest) ** 2 for value in self._rests) / _FOLLOWED) ** 0.5
+            return
+        if self._rose is None:
+            self._rose = _crossing(before, time, force, level)
+        contact = self._rest + max(_CONTACT * span, _CONTACT_NOISE * self._spread, _STRIKE * _LEAST_PEAK)
+        if force >= contact and self._peak >= _LEAST_PEAK:
+            events.append(StepEvent("strike", self._rose, time - self._rose))
+            self.loaded = True
+
+
+def _crossing(before: tuple[float, float], time: float, force: float, level: float) -> float:
+    """Time in s at which the force between two readings is at a level."""
+    step = force - before[1]
+    share = 1.0 if step == 0.0 else (level - before[1]) / step
+    return before[0] + min(max(share, 0.0), 1.0) * (time - before[0])

@@ -1,0 +1,196 @@
+"""The page of a stream, served on this machine: states are sent as they come, and buttons are received.
+
+`plantar.viewer.view`'s style and drawings; server-sent events, by the standard library. The page holds a token, without
+which neither the stream nor the buttons answer, and a request has to name the address that is served: a page of another
+origin can do neither.
+"""
+
+import html
+import json
+import re
+import secrets
+import threading
+from collections.abc import Mapping
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from queue import Empty, SimpleQueue
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+from plantar.common.pages.page import with_policy
+from plantar.common.sides import Side
+from plantar.errors import InputError
+from plantar.layouts.layout import SoleLayout
+from plantar.viewer.page import asset
+
+ACTIONS = ("zero", "mark", "record")
+"""What the page's buttons ask for."""
+
+_MOST_BYTES = 200  # of a button's request
+_MOST_VIEWERS = 8
+_QUIET = 2.0  # s after which a line without content is sent: it shows whether a viewer is still there
+_PATIENCE = 5.0  # s for which a request may take
+
+
+class LivePage:
+    """A page that shows the states that it is sent; a context manager.
+
+    `soles`: layouts; `title`: of the page; `host`, `port`: where it is served, 0 for a free port. InputError if that is
+    not possible. Attribute `url`.
+    """
+
+    def __init__(self, soles: Mapping[Side, SoleLayout], title: str, host: str = "127.0.0.1", port: int = 0) -> None:
+        self._token = secrets.token_urlsafe(16)
+        self._news = threading.Condition()
+        self._state = b""
+        self._number = 0
+        self._ended = False
+        self._viewers = threading.Semaphore(_MOST_VIEWERS)
+        self._actions: SimpleQueue[str] = SimpleQueue()
+        self._page = _page(soles, title, self._token)
+        try:
+            self._server = ThreadingHTTPServer((host, port), _handler(self))
+        except (OSError, OverflowError) as error:
+            raise InputError(f"no page can be served at {host}:{port}: {error}") from None
+        self._server.daemon_threads = True
+        self._hosts = {f"{name}:{self._server.server_port}" for name in ("127.0.0.1", "localhost", host)}
+        self._everywhere = host in ("0.0.0.0", "::")
+        self.url = f"http://{'127.0.0.1' if self._everywhere else host}:{self._server.server_port}/"
+        self._thread = threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.2}, daemon=True)
+
+    def __enter__(self) -> "LivePage":
+        self._thread.start()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        with self._news:
+            self._ended = True
+            self._news.notify_all()
+        self._server.shutdown()
+        self._server.server_close()
+
+    def send(self, state: Mapping[str, Any]) -> None:
+        """Send a state to all viewers; one that is slow gets the latest."""
+        text = json.dumps(state, separators=(",", ":"), allow_nan=False).encode()
+        with self._news:
+            self._state = text
+            self._number += 1
+            self._news.notify_all()
+
+    def actions(self) -> list[str]:
+        """Buttons that were pressed since the last call."""
+        found = []
+        while True:
+            try:
+                found.append(self._actions.get_nowait())
+            except Empty:
+                return found
+
+    def _latest(self, known: int) -> tuple[int, bytes]:
+        """Number and text of the latest state after a known one; the known number after a quiet time."""
+        with self._news:
+            self._news.wait_for(lambda: self._ended or self._number != known, _QUIET)
+            return (-1, b"") if self._ended else (self._number, self._state)
+
+
+def _page(soles: Mapping[Side, SoleLayout], title: str, token: str) -> bytes:
+    data = {
+        "token": token,
+        "soles": {
+            side: {
+                "cells": [layout.vertices[list(corners), :2].round(5).tolist() for corners in layout.corners],
+                "outline": layout.outline.round(5).tolist(),
+                "ids": layout.ids.tolist(),
+            }
+            for side, layout in soles.items()
+        },
+    }
+    parts = {
+        "TITLE": html.escape(title),
+        "STYLE": asset("view.css") + asset("live.css"),
+        "DATA": json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
+        "SCRIPT": asset("soles.js") + asset("live.js"),
+    }
+    text = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("live.html"))
+    return with_policy(text).replace("connect-src 'none'", "connect-src 'self'", 1).encode()
+
+
+def _handler(page: LivePage) -> type[BaseHTTPRequestHandler]:
+    class Handler(BaseHTTPRequestHandler):
+        timeout = _PATIENCE
+        protocol_version = "HTTP/1.1"
+
+        def log_message(self, *_: object) -> None:
+            """Requests are not printed."""
+
+        def do_GET(self) -> None:
+            place = urlsplit(self.path)
+            if not self._addressed():
+                self._answer(403)
+            elif place.path == "/":
+                self._answer(200, page._page, "text/html; charset=utf-8")
+            elif place.path == "/stream" and self._knows(parse_qs(place.query).get("token", [""])[0]):
+                self._stream()
+            else:
+                self._answer(404)
+
+        def do_POST(self) -> None:
+            size = self.headers.get("Content-Length", "")
+            if not (self._addressed() and self.path == "/do" and self._knows(self.headers.get("X-Plantar", ""))):
+                self._answer(403)
+                return
+            if not (size.isdigit() and int(size) <= _MOST_BYTES):
+                self._answer(413)
+                return
+            try:
+                asked = json.loads(self.rfile.read(int(size)))["do"]
+            except (ValueError, TypeError, KeyError, RecursionError):
+                asked = None
+            if asked not in ACTIONS:
+                self._answer(400)
+                return
+            page._actions.put(asked)
+            self._answer(204)
+
+        def _addressed(self) -> bool:
+            """Whether the request names the address that is served: a page of another name is kept out."""
+            return page._everywhere or self.headers.get("Host", "") in page._hosts
+
+        def _knows(self, token: str) -> bool:
+            return secrets.compare_digest(token.encode(), page._token.encode())
+
+        def _answer(self, code: int, body: bytes = b"", kind: str = "text/plain") -> None:
+            self.send_response(code)
+            self.send_header("Content-Type", kind)
+            self.send_header("Content-Length", str(len(body)))
+            self.send_header("Cache-Control", "no-store")
+            self.send_header("X-Content-Type-Options", "nosniff")
+            self.send_header("X-Frame-Options", "DENY")
+            self.send_header("Connection", "close")
+            self.end_headers()
+            self.wfile.write(body)
+            self.close_connection = True
+
+        def _stream(self) -> None:
+            if not page._viewers.acquire(blocking=False):
+                self._answer(503)
+                return
+            try:
+                self.send_response(200)
+                self.send_header("Content-Type", "text/event-stream")
+                self.send_header("Cache-Control", "no-store")
+                self.end_headers()
+                self.close_connection = True
+                known = 0
+                while True:
+                    number, text = page._latest(known)
+                    if number < 0:
+                        return
+                    self.wfile.write(b":\n\n" if number == known else b"data: " + text + b"\n\n")
+                    self.wfile.flush()
+                    known = number
+            except OSError:
+                return  # the viewer went away
+            finally:
+                page._viewers.release()
+
+    return Handler
