@@ -72,6 +72,10 @@ QUICK = {
     "calibrate_a_sole": Example(
         r"gains within (\S+) %.*worst gain (\S+) % off", holds=lambda sure, worst: worst < 2 * sure
     ),
+    "live_page": Example(
+        r"open http://127.0.0.1:\d+/ .*3.0 s recorded, (\d+) readings.*Cadence: (\d+) steps/min",
+        holds=lambda readings, cadence: readings == 300 and abs(cadence - 109) < 2,
+    ),
     "percept_temperature": Example(r"push with (\d+) N", holds=lambda force: force == 14 * 13),
     "percept_a_million": Example(r"as a percept says it: True", ("20000",)),
     "record_larger_than_memory": Example(

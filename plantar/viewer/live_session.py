@@ -61,7 +61,7 @@ class _Session:
         self._page = page
         self._recording = recording
         self._show = show
-        self._state = LiveState(stream.soles)
+        self._state = LiveState(stream.soles, stream.kind)
         self._records = True
         self._marks = 0
         self._arrived = 0.0

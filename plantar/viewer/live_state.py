@@ -11,6 +11,7 @@ from plantar.common.sides import SIDES, Side
 from plantar.layouts.layout import SoleLayout
 from plantar.live.step_detector import StepDetector
 from plantar.percepts.percept import Percept
+from plantar.recordings.pressure_recording import Kind
 from plantar.sensing.reading import Reading
 
 _STEPS = 10  # in the means
@@ -20,7 +21,7 @@ _WALKED = 3.0  # s between two heel strikes, above which the feet do not walk
 
 
 class LiveState:
-    """The latest of each sole of `soles`, and measures of its last steps.
+    """The latest of each sole of `soles`, and measures of its last steps; `kind`: what measures.
 
     Attributes: `time`: of the latest reading in s; `log`: lines, the latest first.
 
@@ -34,10 +35,10 @@ class LiveState:
         420.0
     """
 
-    def __init__(self, soles: Mapping[Side, SoleLayout]) -> None:
+    def __init__(self, soles: Mapping[Side, SoleLayout], kind: Kind = "robot") -> None:
         self.time = 0.0
         self.log: deque[str] = deque(maxlen=_LINES)
-        self._soles = {side: _Sole(layout) for side, layout in soles.items()}
+        self._soles = {side: _Sole(layout, kind) for side, layout in soles.items()}
         self._strikes: deque[float] = deque(maxlen=_STEPS + 1)
 
     def take(self, side: Side, reading: Reading) -> None:
@@ -78,11 +79,11 @@ class LiveState:
 class _Sole:
     """One sole's latest reading, and its last contacts."""
 
-    def __init__(self, layout: SoleLayout) -> None:
+    def __init__(self, layout: SoleLayout, kind: Kind) -> None:
         self.layout = layout
         self.reading: Reading | None = None
         self.steps = 0
-        self._detector = StepDetector()
+        self._detector = StepDetector(kind)
         self._began: float | None = None
         self._peak = 0.0
         self._impulse = 0.0

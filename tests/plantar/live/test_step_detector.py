@@ -13,8 +13,8 @@ from plantar.live.step_detector import StepDetector
 DEMO = Path(plantar.__file__).parent / "commands" / "small_demo"
 
 
-def events_of(time, force):
-    detector = StepDetector()
+def events_of(time, force, kind="robot"):
+    detector = StepDetector(kind)
     return [event for at, load in zip(time.tolist(), force.tolist(), strict=True) for event in detector.take(at, load)]
 
 
@@ -52,7 +52,7 @@ def test_recorded_walks_have_the_same_steps():
             contacts = [
                 c for c in find_contacts(recording.time, force, force_levels(force, recording.kind)) if c.complete
             ]
-            events = events_of(recording.time, force)
+            events = events_of(recording.time, force, recording.kind)
             off = []
             for name, wanted in (("strike", [c.heel_strike for c in contacts]), ("off", [c.toe_off for c in contacts])):
                 found = np.array([event.time for event in events if event.kind == name])
