@@ -32,10 +32,26 @@ _PATIENCE = 5.0  # s for which a request may take
 
 
 class LivePage:
-    """A page that shows the states that it is sent; a context manager.
+    """A page that shows the states that it is sent; a context manager, which serves it.
 
-    `soles`: layouts; `title`: of the page; `host`, `port`: where it is served, 0 for a free port. InputError if that is
-    not possible. Attribute `url`.
+    Args:
+        soles: Layout of each side.
+        title: Of the page.
+        host: Address that is listened to; 0.0.0.0 for all of the machine.
+        port: 0 for a free one.
+
+    Attributes:
+        url: Where the page is.
+
+    Raises:
+        InputError: If it cannot be served there.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> sole = hex_layout([[-0.10, -0.05], [0.14, -0.05], [0.14, 0.05], [-0.10, 0.05]], side="left")
+        >>> with LivePage({"left": sole}, "my sole") as page:
+        ...     page.url.startswith("http://127.0.0.1:"), page.actions()
+        (True, [])
     """
 
     def __init__(self, soles: Mapping[Side, SoleLayout], title: str, host: str = "127.0.0.1", port: int = 0) -> None:
@@ -69,7 +85,11 @@ class LivePage:
         self._server.server_close()
 
     def send(self, state: Mapping[str, Any]) -> None:
-        """Send a state to all viewers; one that is slow gets the latest."""
+        """Send a state to all viewers; one that is slow gets the latest.
+
+        Args:
+            state: What `LiveState.as_dict` gives, with status, recording and time of arrival.
+        """
         text = json.dumps(state, separators=(",", ":"), allow_nan=False).encode()
         with self._news:
             self._state = text
@@ -77,7 +97,7 @@ class LivePage:
             self._news.notify_all()
 
     def actions(self) -> list[str]:
-        """Buttons that were pressed since the last call."""
+        """Names of buttons that were pressed since the last call, of `ACTIONS`."""
         found = []
         while True:
             try:

@@ -35,7 +35,21 @@ def record_with_page(
     """Record a stream as `plantar.live.record.record` does, and show it on a `page`, whose buttons count.
 
     Zero takes what the soles read in the last half second off what follows, also in the recording; mark writes an
-    event; record stops and goes on. Returns and raises as `record`.
+    event; record stops and goes on.
+
+    Args:
+        stream: From `plantar.live.open_live`.
+        page: That is served.
+        path: The MCAP recording, replaced once a reading has come.
+        seconds: Above 0, after which it ends.
+        show: Receives a share of the time and a line of load and center of pressure.
+        sinks: Receive the readings.
+
+    Returns:
+        Seconds, frames and rate of each of the feet, faults and clocks, as `record`.
+
+    Raises:
+        InputError: If no reading was recorded.
     """
     if not seconds > 0.0:
         raise InputError(f"cannot record {seconds} s; allowed: above 0")

@@ -21,9 +21,15 @@ _WALKED = 3.0  # s between two heel strikes, above which the feet do not walk
 
 
 class LiveState:
-    """The latest of each sole of `soles`, and measures of its last steps; `kind`: what measures.
+    """The latest of each sole, and measures of its last steps.
 
-    Attributes: `time`: of the latest reading in s; `log`: lines, the latest first.
+    Args:
+        soles: Layout of each side.
+        kind: What measures: "robot", "insole", "platform" or "plate".
+
+    Attributes:
+        time: Of the latest reading in s.
+        log: Lines, the latest first.
 
     Example:
         >>> import numpy as np
@@ -42,7 +48,12 @@ class LiveState:
         self._strikes: deque[float] = deque(maxlen=_STEPS + 1)
 
     def take(self, side: Side, reading: Reading) -> None:
-        """Take a reading of a side."""
+        """Take a reading.
+
+        Args:
+            side: Of the sole.
+            reading: Its forces.
+        """
         self.time = max(self.time, reading.time) if reading.time > self.time - 1.0 else reading.time
         for at in self._soles[side].take(reading):
             if self._strikes and not 0.0 < at - self._strikes[-1] < _WALKED:
@@ -50,7 +61,11 @@ class LiveState:
             self._strikes.append(at)
 
     def note(self, text: str) -> None:
-        """Put a line on top of the log, with the time."""
+        """Put a line on top of the log, with the time.
+
+        Args:
+            text: The line.
+        """
         self.log.appendleft(f"{self.time:.2f} s  {text}")
 
     def as_dict(self) -> dict[str, Any]:
