@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import expm
 
-from plantar.common.arguments import positive
+from plantar.common.arguments import number, positive
 from plantar.common.arrays import array
 from plantar.errors import InputError
-from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.link_skin import BodySkin, SkinPatch
 from plantar.sensing.reading import Reading
 from plantar.wholebody.dynamics import RobotDynamics
 
@@ -48,11 +48,13 @@ def check_gains(
     limits: ArrayLike,
     *,
     push: float = 20.0,
+    give: float = 0.01,
     contact: tuple[float, float] = (0.02, 1.0),
 ) -> list[str]:
     """Warn of gains that cannot be held about the robot's posture now, and return the warnings.
 
-    Checked are the free motion, and a touch on the middle taxel of each patch of the skin.
+    Checked are the free motion, and a touch on the middle of each patch of the skin and on what looks to its sides:
+    whether torques suffice, whether it yields, and whether it grows.
 
     Args:
         robot: Of a fixed base, with all joints driven; put back as it was.
@@ -61,6 +63,7 @@ def check_gains(
         period: Of control in s.
         limits: Largest torque (k,) of each joint in N m or N.
         push: Largest force of a touch in N, that the torques have to suffice for.
+        give: How far in m the skin should yield to it, at rest; 0 for not at all.
         contact: Time constant in s and damping ratio of a touch, as MuJoCo's `solref`.
 
     Returns:
@@ -71,6 +74,8 @@ def check_gains(
     """
     dt = positive(period, "period", "s")
     positive(push, "push", "N")
+    if not number(give, "give", finite=True) >= 0.0:
+        raise InputError(f"give is {give} m; allowed: 0 or more")
     constant = positive(contact[0], "time constant of a contact", "s")
     ratio = positive(contact[1], "damping ratio of a contact", "1")
     start = np.array(robot.joint_positions)
@@ -89,8 +94,15 @@ def check_gains(
             )
         else:
             for patch in skin.patches:
-                taxel = skin.slices[patch.name].start + int(patch.from_middle[0])
-                touched = plant.growth(dt, taxel, push, constant, ratio)
+                touches = plant.taxels(patch)
+                yielded = min(plant.yields(taxel, push) for taxel in touches)
+                if yielded < give:
+                    found.append(
+                        f"patch '{patch.name}' yields by {1e3 * yielded:.2g} mm to {push:g} N, less than "
+                        f"{1e3 * give:g} mm: what moves into it meets large forces; lower the stiffness of the tasks "
+                        "above the touch"
+                    )
+                touched = max(plant.growth(dt, taxel, push, constant, ratio) for taxel in touches)
                 if touched > max(growth, 1.0) + _GROWS:
                     found.append(
                         f"a touch on patch '{patch.name}' grows by e in {dt / np.log(touched):.2g} s at a period of "
@@ -122,6 +134,13 @@ class _Plant:
         forces[taxel] = force
         return np.array(self.control(self.robot, Reading(0.0, forces)))
 
+    def taxels(self, patch: SkinPatch) -> list[int]:
+        """Numbers of a patch's middle taxel, and of those that look farthest to each side."""
+        normals = patch.rotations[:, :, 2]
+        sides = [int(np.argmax(sign * normals[:, k])) for k in range(3) for sign in (1.0, -1.0)]
+        first = self.skin.slices[patch.name].start
+        return [first + i for i in dict.fromkeys([int(patch.from_middle[0]), *sides])]
+
     def torques(self, limits: NDArray[np.float64], push: float) -> list[str]:
         """What the torques do not suffice for: the posture, or a push on a patch."""
         rest = np.abs(self.torque(self.start, self.still))
@@ -130,8 +149,8 @@ class _Plant:
             return [f"joint {worst} needs {rest[worst]:.3g} N m to hold its posture; its limit is {limits[worst]:.3g}"]
         found = []
         for patch in self.skin.patches:
-            taxel = self.skin.slices[patch.name].start + int(patch.from_middle[0])
-            asked = np.abs(self.torque(self.start, self.still, taxel, push))
+            answers = [np.abs(self.torque(self.start, self.still, taxel, push)) for taxel in self.taxels(patch)]
+            asked = np.max(answers, axis=0)
             if (asked > limits).any():
                 worst = int(np.argmax(asked - limits))
                 found.append(
@@ -140,12 +159,32 @@ class _Plant:
                 )
         return found
 
-    def growth(
-        self, period: float, taxel: int = 0, force: float = 0.0, constant: float = 1.0, ratio: float = 1.0
-    ) -> float:
-        """Largest magnitude of an eigenvalue of one tick; with a force, touched by a spring and damper."""
+    def yields(self, taxel: int, force: float) -> float:
+        """How far in m a taxel gives way to a force in N in the end; infinity where no spring holds it."""
+        torques, bias = self.rates(taxel, force)[0]
+        self.robot.update(self.start, self.still, self.robot.time)
+        row = self.row(taxel)
+        pushed = row + self.answer(taxel, force)
+        moved, _, rank, _ = np.linalg.lstsq(bias - torques, pushed, rcond=1e-9)
+        if rank < len(row) and np.abs((bias - torques) @ moved - pushed).max() > 1e-6 * np.abs(pushed).max():
+            return np.inf
+        return abs(force * float(row @ moved))
+
+    def row(self, taxel: int) -> NDArray[np.float64]:
+        """Jacobian (n,) of a taxel's place along its axis, in the robot's state now."""
+        link = self.skin.links[self.skin.link_of[taxel]]
+        axis = self.robot.pose(link)[1] @ self.skin.normals[taxel]
+        return np.asarray(axis @ self.robot.jacobian(link, self.skin.positions[taxel])[:3])
+
+    def answer(self, taxel: int, force: float) -> NDArray[np.float64]:
+        """Torques (n,) per N on a taxel."""
+        more, less = (self.torque(self.start, self.still, taxel, force + sign * 1e-3) for sign in (1.0, -1.0))
+        return np.asarray((more - less) / 2e-3)
+
+    def rates(self, taxel: int, force: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Rates (2, n, n) of torques and of the bias by place, and by speed."""
         count = len(self.start)
-        by_place = np.empty((2, count, count))  # of torques and bias
+        by_place = np.empty((2, count, count))
         by_speed = np.empty((2, count, count))
         for i in range(count):
             off = _STEP * np.eye(count)[i]
@@ -155,6 +194,14 @@ class _Plant:
                     torque = self.torque(self.start + sign * place, sign * speed, taxel, force)
                     ends.append(np.array([torque, self.robot.bias]))
                 rates[:, :, i] = (ends[0] - ends[1]) / (2.0 * _STEP)
+        return by_place, by_speed
+
+    def growth(
+        self, period: float, taxel: int = 0, force: float = 0.0, constant: float = 1.0, ratio: float = 1.0
+    ) -> float:
+        """Largest magnitude of an eigenvalue of one tick; with a force, touched by a spring and damper."""
+        count = len(self.start)
+        by_place, by_speed = self.rates(taxel, force)
         self.robot.update(self.start, self.still, self.robot.time)
         inverse = np.linalg.inv(self.robot.mass_matrix)
         held = np.hstack([by_place[0], by_speed[0]])
@@ -164,18 +211,14 @@ class _Plant:
         moves[count : 2 * count, count : 2 * count] = -inverse @ by_speed[1]
         moves[count : 2 * count, 2 * count :] = inverse
         if force:
-            link = self.skin.links[self.skin.link_of[taxel]]
-            rotation = self.robot.pose(link)[1]
-            row = rotation @ self.skin.normals[taxel] @ self.robot.jacobian(link, self.skin.positions[taxel])[:3]
+            row = self.row(taxel)
             mass = 1.0 / max(float(row @ inverse @ row), 1e-9)
             stiffness = mass / (constant * ratio) ** 2
             damping = 2.0 * mass / constant
             moves[count : 2 * count, :count] -= inverse @ np.outer(row, stiffness * row)
             moves[count : 2 * count, count : 2 * count] -= inverse @ np.outer(row, damping * row)
             # The skin reads the spring's and the damper's force.
-            more, less = (self.torque(self.start, self.still, taxel, force + sign * 1e-3) for sign in (1.0, -1.0))
-            answer = (more - less) / 2e-3
-            held -= np.outer(answer, np.concatenate([stiffness * row, damping * row]))
+            held -= np.outer(self.answer(taxel, force), np.concatenate([stiffness * row, damping * row]))
         step = expm(moves * period)
         closed = step[: 2 * count, : 2 * count] + step[: 2 * count, 2 * count :] @ held
         return float(np.abs(np.linalg.eigvals(closed)).max())

@@ -30,7 +30,7 @@ def cart() -> MujocoDynamics:
 def checked(control, **given):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        found = check_gains(cart(), control, SKIN, PERIOD, [1000.0], **given)
+        found = check_gains(cart(), control, SKIN, PERIOD, [1000.0], **{"give": 0.0, **given})
     assert [str(w.message) for w in caught] == found
     assert all(issubclass(w.category, GainWarning) for w in caught)
     return found
@@ -85,7 +85,7 @@ def test_the_robot_is_put_back_and_wrong_values_are_refused():
     robot = cart()
     robot.update(np.array([0.3]), np.array([0.2]), 1.5)
     stack = TaskStack([[Posture([0.3], 10.0, 5.0)]])
-    assert check_gains(robot, lambda r, reading: stack.step(r, reading).torque, SKIN, 1e-3, [100.0]) == []
+    assert check_gains(robot, lambda r, reading: stack.step(r, reading).torque, SKIN, 1e-3, [100.0], give=0.0) == []
     assert (robot.joint_positions[0], robot.velocity[0], robot.time) == (0.3, 0.2, 1.5)
     with pytest.raises(InputError, match="period"):
         check_gains(robot, lambda r, reading: np.zeros(1), SKIN, 0.0, [1.0])
@@ -99,3 +99,15 @@ def test_the_robot_is_put_back_and_wrong_values_are_refused():
     )
     with pytest.raises(InputError, match="fixed base"):
         check_gains(free, lambda r, reading: np.zeros(1), SKIN, 1e-3, [1.0])
+
+
+@pytest.mark.parametrize(("gain", "holds"), [(0.0, False), (1.5, True)])
+def test_a_touch_has_to_yield(gain, holds):
+    """By (1 + gain) F / k of a spring k."""
+    stack = TaskStack([[DirectInteraction(SKIN, gain=gain), Posture([0.0], 3000.0, 100.0, torques=True)]])
+    found = checked(lambda robot, reading: stack.step(robot, reading).torque, push=20.0, give=0.01)
+    assert bool(found) != holds
+    if found:
+        assert "patch 'back' yields by 6.7 mm to 20 N, less than 10 mm" in found[0]
+    with pytest.raises(InputError, match="give is -1"):
+        checked(lambda robot, reading: np.zeros(1), give=-1.0)
