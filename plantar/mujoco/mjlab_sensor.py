@@ -80,7 +80,8 @@ class SkinSensor(_Sensor):
         self._worlds = getattr(data, "struct", data)
         self._torch_device = torch.device(device)
         self._device = wp.device_from_torch(self._torch_device)
-        self._force: tuple[float, torch.Tensor] | None = None
+        self._force: torch.Tensor | None = None
+        self._time = 0.0
         cone = bool(getattr(model, "struct", model).opt.cone)
         with wp.ScopedDevice(self._device):
             self._many = WarpSkin(self.skin, self._worlds.nworld, self.cfg.contacts, elliptic=cone)
@@ -89,10 +90,10 @@ class SkinSensor(_Sensor):
     def force(self) -> torch.Tensor:
         """Force (B, N) along each taxel's axis in N; with `faults`, what the taxels read, NaN if dead."""
         _ = self.data  # of this step
-        time = float(self._worlds.time.numpy().max())
-        if self._force is None or time != self._force[0]:
-            self._force = time, torch.as_tensor(self._many.force(time)).float().to(self._torch_device)
-        return self._force[1].clone()
+        if self._force is None:
+            self._time = max(self._time, float(self._worlds.time.numpy().max()))  # worlds begin again one by one
+            self._force = torch.as_tensor(self._many.force(self._time)).float().to(self._torch_device)
+        return self._force.clone()
 
     @property
     def wrench(self) -> torch.Tensor:
@@ -105,6 +106,7 @@ class SkinSensor(_Sensor):
         return self._read(self._many.carried).bool()
 
     def _compute_data(self) -> torch.Tensor:
+        self._force = None
         with wp.ScopedDevice(self._device):
             self._many.read(self._worlds)
             if not self._device.is_cpu:  # PyTorch has a stream of its own
