@@ -31,6 +31,7 @@ class Simulated(Protocol):
     data: Any
     readings: Mapping[Side, SkinReading]
     difficulty: float
+    period: float
 
     @property
     def velocity(self) -> NDArray[np.float64]:
@@ -76,13 +77,18 @@ class Task:
         return {}
 
     @property
+    def failed(self) -> bool:
+        """Whether the task can no longer be done, though the robot stands; ends the episode."""
+        return False
+
+    @property
     def upright(self) -> float:
         """1 for an upright torso, 0.37 at 0.2 rad."""
         return math.exp(-2.0 * (1.0 - self.env.up) / 0.04)
 
 
 class Stand(Task):
-    """Stand still; each 8 beats a push changes the velocity by up to 0.1 sqrt(g l)."""
+    """Stand still; each 8 beats a push changes the velocity by up to 0.4 sqrt(g l)."""
 
     def reset(self, rng: np.random.Generator) -> None:
         self._next = 8.0 * self.beat
@@ -91,7 +97,7 @@ class Stand(Task):
         if self.env.data.time >= self._next:
             self._next += 8.0 * self.beat
             way = rng.uniform(0.0, 2.0 * math.pi)
-            size = self.env.difficulty * rng.uniform(0.0, 0.1) * self.speed
+            size = self.env.difficulty * rng.uniform(0.0, 0.4) * self.speed
             self.env.data.qvel[:2] += size * np.array([math.cos(way), math.sin(way)])
 
 
@@ -99,7 +105,7 @@ class Step(Task):
     """Step onto targets: each 3 beats one foot, left first, up to a sixth of a leg ahead.
 
     Observed: swing foot (1 left, -1 right), share of its time, target (2,) from its sole in the torso's heading. `info`
-    has "steps": landings within 0.1 leg.
+    has "steps": landings within 0.1 leg, and "missed": the other ones, of which the third fails.
     """
 
     size = 4
@@ -108,6 +114,7 @@ class Step(Task):
         self._begin = 0.0
         self._swing = 0
         self.steps = 0
+        self.missed = 0
         self._lifted = False
         self._target: NDArray[np.float64] | None = None
 
@@ -116,7 +123,9 @@ class Step(Task):
         env = self.env
         passed = now - self._begin >= 3.0 * self.beat
         if passed:
-            self.steps += int(self._lifted and self._load() > 0.05 and self._off() < 0.1 * self.leg)
+            landed = self._lifted and self._load() > 0.05 and self._off() < 0.1 * self.leg
+            self.steps += int(landed)
+            self.missed += int(not landed)
             self._begin = now
             self._swing = 1 - self._swing
             self._lifted = False
@@ -159,14 +168,19 @@ class Step(Task):
         return lifted + 0.4 * self.upright + 0.4 * share * math.exp(-((self._off() / (0.1 * self.leg)) ** 2))
 
     def info(self) -> dict[str, Any]:
-        return {"steps": self.steps}
+        return {"steps": self.steps, "missed": self.missed}
+
+    @property
+    def failed(self) -> bool:
+        return self.missed > 2
 
 
 class Walk(Task):
     """Walk at a velocity on square tiles within a fortieth of a leg, friction 0.5 to 1.
 
     Drawn every 16 beats and observed (3,): forward -0.1 to 0.3, left -0.1 to 0.1 sqrt(g l), turn -0.1 to 0.1 sqrt(g /
-    l).
+    l). `info` has "behind": how far the robot is in legs from where it was told to be, in its heading at each time; a
+    leg fails.
     """
 
     size = 3
@@ -196,6 +210,7 @@ class Walk(Task):
         model.geom_friction[[*tiles, model.geom("ground").id, *soles], 0] = rng.uniform(0.5, 1.0)
         self._next = 0.0
         self.command = np.zeros(3)
+        self._behind = np.zeros(2)
 
     def disturb(self, rng: np.random.Generator) -> None:
         if self.env.data.time >= self._next:
@@ -205,7 +220,16 @@ class Walk(Task):
     def observe(self) -> NDArray[np.float64]:
         return self.command
 
+    def info(self) -> dict[str, Any]:
+        return {"behind": float(np.hypot(*self._behind))}
+
+    @property
+    def failed(self) -> bool:
+        return float(np.hypot(*self._behind)) > 1.0
+
     def reward(self) -> float:
+        told = self.command[:2] / self.beat * self.env.period
+        self._behind += told - self.env.velocity[:2] * self.env.period / self.leg
         off = self.env.velocity / np.array([self.speed, self.speed, 1.0 / self.beat]) - self.command
         return (
             0.3 * self.upright
@@ -215,7 +239,7 @@ class Walk(Task):
 
 
 class Board(Task):
-    """Stand on a board that tilts about both horizontal axes by up to 5 degrees, 0.05 to 0.15 swings a beat."""
+    """Stand on a board that tilts about both horizontal axes by up to 7 degrees, 0.05 to 0.15 swings a beat."""
 
     def ground(self) -> Ground:
         half = (1.5 * self.leg, 1.5 * self.leg, 0.05)
@@ -225,7 +249,7 @@ class Board(Task):
         )
 
     def reset(self, rng: np.random.Generator) -> None:
-        self._size = self.env.difficulty * math.radians(5.0) * rng.uniform(0.5, 1.0, 2)
+        self._size = self.env.difficulty * math.radians(7.0) * rng.uniform(0.5, 1.0, 2)
         self._rate = 2.0 * math.pi * rng.uniform(0.05, 0.15, 2) / self.beat
         self._board = int(self.env.model.body("ground_0").mocapid[0])
         self.env.data.mocap_quat[self._board] = [1.0, 0.0, 0.0, 0.0]

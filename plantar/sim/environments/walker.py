@@ -45,8 +45,9 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     - skin_left, skin_right (n,): force on each taxel in body weights;
     - task (m,): see `plantar.sim.environments.tasks`.
 
-    An episode ends where the torso tilts by 40 degrees or sinks by 30 %, or physics diverge. `info`: "time" in s,
-    "velocity" (2,) in m/s in its heading, "load" of both soles in body weights, and the task's.
+    An episode ends where the torso tilts by 40 degrees or sinks by 30 %, physics diverge, or the task can no longer be
+    done, so that the action 0 ends most episodes of each task early. `info`: "time" in s, "velocity" (2,) in m/s in its
+    heading, "load" of both soles in body weights, "fell" and "failed", and the task's.
 
     `task`: "stand", "step", "walk" or "board"; `period`: step in s, whole `physics_period`s; `faults` of taxels, drawn
     at each reset, or None; `scale`: angle in rad of an action of 1; `difficulty`: scales pushes, ground and commands; 0
@@ -145,8 +146,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     ) -> tuple[dict[str, NDArray[np.float32]], float, bool, bool, dict[str, Any]]:
         """One control step.
 
-        `action`: set-points (k,), clipped to -1..1. Returns observation, reward, whether it fell, False (`TimeLimit`
-        truncates), and info.
+        `action`: set-points (k,), clipped to -1..1. Returns observation, reward, whether it fell or failed the task,
+        False (`TimeLimit` truncates), and info.
         """
         moved = np.clip(np.asarray(action, dtype=np.float32), -1.0, 1.0)
         if moved.shape != self.last_action.shape or not np.isfinite(moved).all():
@@ -164,7 +165,8 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         height = data.xpos[self.world.torso, 2]
         lost = data.warning.number[list(DIVERGED)].any()  # MuJoCo has put it back to its reference pose
         fell = bool(lost or not self.up > _FALLEN_UP or height < _FALLEN_HEIGHT * self._height)
-        return observation, reward, fell, False, self._info()
+        failed = self.task.failed
+        return observation, reward, fell or failed, False, {**self._info(), "fell": fell, "failed": failed}
 
     def render(self) -> Any:
         """A picture (480, 640, 3) of the robot; None without a render mode."""

@@ -163,3 +163,35 @@ def test_many_at_once():
     seen, reward, *_ = envs.step(np.zeros((2, 12), dtype=np.float32))
     assert reward.shape == (2,)
     envs.close()
+
+
+@pytest.mark.sample(1)
+@pytest.mark.parametrize("task", ["step", "walk"])
+def test_standing_still_fails_a_task_that_asks_for_steps(task):
+    env = PlantarEnv(task, skin=False)
+    env.reset(seed=0)
+    for _ in range(500):
+        _, _, ended, truncated, info = env.step(np.zeros_like(env.last_action))
+        if ended:
+            break
+    assert info["failed"]
+    assert not info["fell"]
+    assert not truncated
+    if task == "step":
+        assert info["missed"] == 3
+        assert info["steps"] == 0
+    else:
+        assert info["behind"] > 1.0
+
+
+def test_what_is_behind_is_the_command_less_the_way():
+    """Told to walk at a steady velocity, a robot that stands is behind by that times the time."""
+    env = PlantarEnv("walk", skin=False, difficulty=0.0)
+    env.reset(seed=0)
+    env.task._next = np.inf
+    env.task.command = np.array([0.2, -0.1, 0.0])
+    for k in range(1, 41):
+        *_, info = env.step(np.zeros_like(env.last_action))
+        told = np.hypot(0.2, 0.1) * k * env.period / env.task.beat
+        assert info["behind"] == pytest.approx(told, abs=0.03)
+    assert not info["failed"]
