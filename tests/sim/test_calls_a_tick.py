@@ -68,7 +68,7 @@ SLOWINGS = {
     "a lost cache of contacts": (ContactMemory, "encloses", _forget_polygon),
     "kinematics computed twice": (LegModel, "follow", lambda legs: legs.live_posture(legs.joints)),
     "a plan looked at once more": (Footing, "perceive", lambda footing: footing._plan.at(2.0)),
-    "a convenience of numpy": (LegModel, "carry", lambda _: np.repeat([0.5, 0.5], 6)),
+    "a convenience of numpy": (LegModel, "carry_soles", lambda _: np.repeat([0.5, 0.5], 6)),
     "a dictionary by a comprehension": (WalkPlan, "at", lambda _: {side: len(side) for side in SIDES}),
 }
 
