@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.plotting import COLOURS, draw_cells, html_of, new_figure, ticks_in_mm
 
+_FULL = 10.0  # thresholds, the least end of the colours: the noise of a foot in the air does not look like a load
 _CONTOURS = ("#ffffff", "#ffd166", "#f4a259", "#e4572e", "#d81b60")
 
 
@@ -81,7 +82,8 @@ def percept_html(percept: Any) -> str:
 def _draw_contact(figure: Any, axes: Any, percept: Any) -> None:
     force = np.where(percept.health.faulty, np.nan, percept.reading.force)
     known = force[np.isfinite(force)]
-    cells = draw_cells(axes, percept.layout, force, float(known.max(initial=0.0)))
+    highest = max(float(known.max(initial=0.0)), _FULL * percept.force_threshold)
+    cells = draw_cells(axes, percept.layout, force, highest)
     figure.colorbar(cells, ax=axes, label="force on a taxel in N", shrink=0.7)
     for index, ring in enumerate(rings_of(percept)):
         _ring(axes, ring, "concave polygon" if index == 0 else None, color=COLOURS["cop"], linewidth=2.2)
