@@ -1,6 +1,6 @@
 """Footsteps of walkways in StepUP-P150's form: processor time, memory, feet, workers and kills.
 
-python benchmarks/walkway.py [FOLDER]      (writes benchmarks/walkway.md; about 12 min of processor time)
+python benchmarks/walkway.py [STEPS]      (writes benchmarks/walkway.md; 20,000 footsteps take 8 min of processor time)
 
 The footsteps are made (`made_walkway.py`): stacks of some people, each copied until there are 20,000 footsteps;
 walkways of 90 s as they are published; and passes whose feet are known, found without the table.
@@ -17,6 +17,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
 import numpy as np
 from made_walkway import MadeStep, made_walk, metadata_of, trial_of, upright, walker, write_stack
@@ -167,58 +168,75 @@ def _pass_of(steps: Sequence[MadeStep]) -> WalkwayPass:
     return WalkwayPass(first, CellGrid(row, column), force, (720, 240))
 
 
-def main() -> None:
-    with TemporaryDirectory(dir=sys.argv[1] if len(sys.argv) > 1 else None) as name:
+class Found(NamedTuple):
+    """Figures of the page: feet found of so many; rows of walkways; footsteps, and what one and two processes take."""
+
+    feet: tuple[int, int]
+    walks: list[tuple[object, ...]]
+    total: int
+    one: tuple[float, float, float]
+    two: tuple[float, float, float]
+    rows: int
+    different: int
+    same: bool
+    kills: tuple[int, int, bool]
+
+
+def found(steps: int) -> Found:
+    """Measure all, with so many footsteps in stacks."""
+    with TemporaryDirectory() as name:
         root = Path(name)
-        count, right = sides(PASSES_OF)
-        print("sides", count, right, flush=True)
+        feet = sides(PASSES_OF)
         walks = walk_rows(root)
-        print(walks, flush=True)
-        total = write_set(root / "set", STEPS)
-        one = measured(root / "set", root / "one", 1)
-        print(total, one, flush=True)
-        two = measured(root / "set", root / "two", 2)
-        print(two, flush=True)
-        with (root / "two" / "steps.csv").open() as stream:
+        total = write_set(root / "set", steps)
+        one, two = (measured(root / "set", root / str(jobs), jobs) for jobs in (1, 2))
+        tables = [(root / jobs / "steps.csv").read_bytes() for jobs in ("1", "2")]
+        with (root / "2" / "steps.csv").open() as stream:
             rows = [(r["recording"], r["side"], r["step"]) for r in csv.DictReader(stream)]
-        same = (root / "one" / "steps.csv").read_bytes() == (root / "two" / "steps.csv").read_bytes()
-        small = root / "small"
-        for path in sorted((root / "set").iterdir())[:24]:
-            shutil.copytree(path, small / path.name)
-        measured(small, root / "whole", 1)
-        kills, held, again = killed(small, root / "killed", root / "whole")
-        print(kills, held, again, flush=True)
+        for path in sorted((root / "set").iterdir())[:12]:
+            shutil.copytree(path, root / "small" / path.name)
+        measured(root / "small", root / "whole", 1)
+        kills = killed(root / "small", root / "killed", root / "whole")
+        return Found(feet, walks, total, one, two, len(rows), len(set(rows)), tables[0] == tables[1], kills)
+
+
+def page_of(f: Found, load: float) -> str:
+    """Page of the figures; `load`: that of the machine."""
+    count, right = f.feet
+    kills, held, again = f.kills
+    spent = [(f.total, n, 1e3 * own[0] / f.total, *own[1:]) for n, own in ((1, f.one), (2, f.two))]
     lines = [
         "# Footsteps of walkways, of any number",
         "",
         f"Made footsteps in StepUP-P150's form; written by `python benchmarks/walkway.py`, {made_on()}.",
-        f"Load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores.",
+        f"Load of the machine: {load:.1f} on {os.cpu_count()} cores.",
         "",
-        "Stacks (`pipeline_1.npz`, bytes) as a study without figures:",
+        "Stacks (`pipeline_1.npz`, bytes) as a study without figures, loading of libraries included:",
         "",
         markdown_table(
             ("footsteps", "processes", "processor time, ms a footstep", "clock, s", "largest memory of a process, MB"),
-            [
-                (total, jobs, 1e3 * spent / total, clock, memory)
-                for jobs, (spent, clock, memory) in ((1, one), (2, two))
-            ],
+            spent,
         ),
         "",
-        f"Two processes take the clock 1 / {one[1] / two[1]:.2f} of one. Rows of steps.csv: {len(rows)}, different "
-        f"ones: {len(set(rows))}; with one and two processes the same bytes: {same}. Killed {kills} times with {held} "
-        f"of 24 recordings kept, the study went on to the same bytes: {again}.",
+        f"Rows of steps.csv: {f.rows}, different ones: {f.different}; with one and two processes the same: {f.same}.",
+        f"Killed {kills} times with {held} of 12 recordings kept, a study went on to the same bytes: {again}.",
         "",
         "Walkways (`trial.npz`, 9060 x 720 x 240 bytes), processor time in s:",
         "",
         markdown_table(
             ("footsteps", "numpy.load", "measured, feet found", "measured, feet by metadata.csv", "ratio", "ratio"),
-            walks,
+            f.walks,
         ),
         "",
         f"Feet found without the table: {right} of {count} ({100.0 * right / count:.2f} %).",
         "",
     ]
-    (FOLDER / "walkway.md").write_text("\n".join(lines), encoding="utf-8")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    steps = int(sys.argv[1]) if len(sys.argv) > 1 else STEPS
+    (FOLDER / "walkway.md").write_text(page_of(found(steps), os.getloadavg()[0]), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -306,7 +306,8 @@ def _permuted(
 def _shares(permuted: NDArray[np.float64], observed: NDArray[np.float64]) -> NDArray[np.float64]:
     """Share of permuted statistics (p,) that reach each observed one (k,)."""
     ordered = np.sort(permuted)
-    return np.asarray(1.0 - np.searchsorted(ordered, observed * (1.0 - _ROUNDING), side="left") / len(ordered))
+    below = np.searchsorted(ordered, observed * (1.0 - _ROUNDING), side="left")
+    return np.asarray((len(ordered) - below) / len(ordered))  # 1 - 0.95 would be more than 0.05
 
 
 def _blocks(design: Design, values: int, most: int) -> Iterator[NDArray[np.int64]]:

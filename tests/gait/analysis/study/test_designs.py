@@ -109,3 +109,9 @@ def test_one_against_a_group_errs_in_5_of_100():
 
 def _split(values):
     return values[0], values[1:]
+
+
+def test_the_largest_of_twenty_has_a_probability_of_exactly_5_percent():
+    from plantar.gait.analysis.study.designs import _shares
+
+    assert _shares(np.arange(20.0), np.array([19.0, 18.0, -1.0])).tolist() == [0.05, 0.1, 1.0]
