@@ -133,7 +133,7 @@ def test_lines_that_cannot_be_meant_end_a_strict_recording(text, words, tmp_path
 @pytest.mark.parametrize(
     ("source", "words"),
     [
-        ("hearsay:x", "allowed: file, lines, replay"),
+        ("hearsay:x", "allowed: file, lines"),
         ("replay", "replay:FILE"),
         ("lines", "--layout"),
         ("lines:x", "stdin"),
