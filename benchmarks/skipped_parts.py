@@ -5,6 +5,7 @@ once with each of them, so that a slow minute of the machine meets all; differen
 """
 
 import argparse
+import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -78,6 +79,12 @@ def row(part: tuple[str, str, Change, str], rounds: list[list[tuple[float, dict[
     return [*cells, f"{1e3 * median(saved) * ticks / counted:.0f}" if counted else "-"]
 
 
+def commit() -> str:
+    """Short name of the checkout's commit."""
+    command = ["git", "-C", str(FOLDER), "rev-parse", "--short=8", "HEAD"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
 def main(rounds: int) -> None:
     head = ["what", "how it is left out"]
     lines = [[part[0], part[1]] for part in PARTS]
@@ -89,7 +96,11 @@ def main(rounds: int) -> None:
             print(f"{' '.join(scene)} {turn + 1}/{rounds}: {seen[-1][0][0]:.0f} us a tick", file=sys.stderr)
         for number, (part, line) in enumerate(zip(PARTS, lines, strict=True), 1):
             line += row(part, seen, number)
-    write_table(FOLDER / "skipping.md", [markdown_table(head, lines), "", f"Medians of {rounds} rounds."], "parts")
+    write_table(
+        FOLDER / "skipping.md",
+        [markdown_table(head, lines), "", f"Medians of {rounds} rounds, at commit {commit()}."],
+        "parts",
+    )
 
 
 if __name__ == "__main__":
