@@ -26,10 +26,10 @@ from plantar.shoes.wiring.grid_router import EDGE, LINE, NEAR, STEP, VIA, GridRo
 Array = NDArray[np.float64]
 
 CONTACT = 4.0  # long, at the tail's end
-TAIL_LINE = 0.25
-SPINE = 0.3
-FINGER = 0.4
-GAP = 0.3
+TAIL_LINE = 0.25  # wide, of half the tail's pitch
+SPINE = 0.3  # wide, of a comb, from which its fingers go out
+FINGER = 0.4  # wide
+GAP = 0.3  # between two fingers
 _MARGIN = 0.15  # of a comb within its electrode's place
 _BESIDE = 0.5  # of a row's line beyond its outermost combs
 _ROOT = 2.0  # from the sheet's edge to where the grid begins

@@ -16,12 +16,12 @@ from scipy.sparse.csgraph import dijkstra
 Array = NDArray[np.float64]
 
 LINE = 0.2  # wide
-CLEARANCE = 0.2
+CLEARANCE = 0.2  # between the copper of two nets
 VIA = 0.5  # across its pad
-HOLE = 0.3
+HOLE = 0.3  # across
 EDGE = 0.5  # copper to the board's edge
 STEP = 0.5  # of the grid
-BLOCKED = -1
+BLOCKED = -1  # for every net
 
 _AGAINST = 1.3  # a step across a layer's direction over one along it
 _CHANGE = 8.0  # steps that a via is worth

@@ -126,7 +126,8 @@ def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot, tmp
 
 
 def test_a_face_that_reaches_too_far_beyond_the_foot_is_no_good_layout_either(small_foot, tmp_path):
-    near = build_shoe(small_foot, side="left", layout_only=True, parameters=ShoeParameters(overhang_max=1.0))
+    tight = ShoeParameters(overhang_max=1.0)
+    near = build_shoe(small_foot, side="left", layout_only=True, cell_area=400.0, parameters=tight)
     assert near.shoes[0].plan.overhang > 1.1
     report = export_shoe(near, tmp_path)
     assert [c.name for c in report.plan_checks["left"] if not c.holds] == ["overhang, mm"]
