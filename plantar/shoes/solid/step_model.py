@@ -34,8 +34,9 @@ class StepPart:
 
     @cached_property
     def shape(self) -> Any:
-        """Kernel solid, with arcs."""
-        return _solid(with_arcs(self.body))
+        """Kernel solid, with arcs; with the polygons' own edges where the kernel finds faults in it with arcs."""
+        curved = _solid(with_arcs(self.body))
+        return curved if _faultless(curved) else _solid(CurvedSolid(self.body, {}, frozenset()))
 
 
 @dataclass(frozen=True)
@@ -186,7 +187,11 @@ def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tup
 
 def is_valid(part: StepPart) -> bool:
     """Whether a part is a solid without faults, by the kernel."""
-    return bool(ocp.BRepCheck.BRepCheck_Analyzer(part.shape).IsValid())
+    return _faultless(part.shape)
+
+
+def _faultless(shape: Any) -> bool:
+    return bool(ocp.BRepCheck.BRepCheck_Analyzer(shape).IsValid())
 
 
 def read_step(path: str | os.PathLike[str]) -> StepSolid:
@@ -202,7 +207,7 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
     circles = [c.Circle() for c in curves if c.GetType() == ocp.GeomAbs.GeomAbs_Circle]
     return StepSolid(
         solids=len(parts_of(shape, ocp.TopAbs.TopAbs_SOLID)),
-        valid=bool(ocp.BRepCheck.BRepCheck_Analyzer(shape).IsValid()),
+        valid=_faultless(shape),
         volume=float(volume.Mass()),
         corners=points_of(shape),
         circles=np.array([(*(c.Location().Coord()), c.Radius()) for c in circles]).reshape(-1, 4),
