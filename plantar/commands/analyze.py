@@ -26,7 +26,9 @@ class FileOrder:
 
     format: str | None = _option(None, "Name of the format, where recognition fails: see plantar list formats.")
     layout: Path | None = _option(  # noqa: RUF009
-        None, "Layout file to use instead of the format's own geometry; mirrored for the other foot."
+        None,
+        "Layout file, or an insole by maker and size (moticon:7, pedar:xw), instead of the format's own geometry; "
+        "mirrored for the other foot.",
     )
     unit: str | None = _option(None, "Unit of the values, instead of the file's: kPa, N/cm2, mmHg, psi, N, raw, ...")
     rate: float | None = _option(None, "Frames a second, instead of the file's.")

@@ -48,14 +48,14 @@ def live(
     Example: plantar live replay:run.mcap --seconds 5 --send udp:9871
     """
     from plantar.common.atomic import keep_inputs, parent_folder
-    from plantar.layouts.layout_file import read_layout
+    from plantar.formats.nominal_insole import named_or_read_layout
     from plantar.live import open_live
     from plantar.live.record import record
     from plantar.live.sink import open_sink
 
     keep_inputs(output, [source.partition(":")[2], layout])
     sinks = [open_sink(text) for text in send or []]
-    sole = None if layout is None else read_layout(layout)
+    sole = None if layout is None else named_or_read_layout(layout)
     stream = open_live(source, sole, strict=strict, correct=correct_clocks, kind=kind, counts=counts)
     with parent_folder(output), progress_bar() as progress:
         if page:

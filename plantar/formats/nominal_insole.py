@@ -1,5 +1,7 @@
 """Nominal insole geometry for recordings without cell places: 99 cells, and Moticon's 16."""
 
+import os
+import re
 from collections.abc import Mapping
 from importlib.resources import files
 from itertools import pairwise
@@ -7,11 +9,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import FormatError
+from plantar.errors import FormatError, InputError
 from plantar.formats.recorded_layouts import flat_sole
 from plantar.geometry.polygon import area, centroid
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 from plantar.layouts.layout import Side, SoleLayout, mirrored
+from plantar.layouts.layout_file import read_layout
 
 ROWS: tuple[int, ...] = (5, *(7,) * 12, 6, 4)
 """Cells in each row of a regular insole, heel to toe; in a row they are counted from the medial to the lateral edge."""
@@ -30,6 +33,8 @@ CELL_AREAS: Mapping[str, NDArray[np.float64]] = {
 
 DEFAULT_SIZE = "x"
 """The size that is assumed where the file names none."""
+
+_NAMED = re.compile(r"(moticon|pedar):(\w*)", re.IGNORECASE)
 
 # Least share of a row that cells of two rows have in common to be neighbours: their areas are rounded to mm^2.
 _CORNER = 0.02
@@ -175,3 +180,24 @@ def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | No
     made = np.arange(1, len(centre) + 1), centre, vertices, corners, neighbours, area
     right = flat_sole(f"Moticon insole, size {size or _AREA_SIZE}", "right", *made, outline)
     return right if side == "right" else mirrored(right)  # y to the left is the medial side of a right foot
+
+
+def named_or_read_layout(given: SoleLayout | str | os.PathLike[str]) -> SoleLayout:
+    """Returns layout of a nominal insole by maker and size, such as "moticon:7" or "pedar:xw", or of a file.
+
+    InputError for an unknown size, LayoutError for a file that is no layout.
+
+    Example:
+        >>> [len(named_or_read_layout(name)) for name in ("moticon:7", "pedar:xw")]
+        [16, 99]
+    """
+    if isinstance(given, SoleLayout):
+        return given
+    match = _NAMED.fullmatch(str(given))
+    if match is None or os.path.exists(given):
+        return read_layout(given)
+    maker, size = (part.lower() for part in match.groups())
+    sizes = [str(k) for k in MOTICON_LENGTH] if maker == "moticon" else list(CELL_AREAS)
+    if size not in sizes:
+        raise InputError(f"unknown size {size!r} of a {maker} insole; allowed: {', '.join(sizes)}")
+    return moticon_insole(int(size), "left") if maker == "moticon" else nominal_insole(size, "left")

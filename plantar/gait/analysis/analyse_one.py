@@ -10,6 +10,7 @@ from plantar.common.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
 from plantar.formats.given import recording_of
+from plantar.formats.nominal_insole import named_or_read_layout
 from plantar.formats.plausibility import refuse_small
 from plantar.formats.stated_events import read_events
 from plantar.gait.analysis.metrics import metrics_of
@@ -21,7 +22,6 @@ from plantar.gait.analysis.steps.baseline import without_baselines
 from plantar.gait.analysis.steps.gaps import without_gaps
 from plantar.gait.analysis.subject import Subject
 from plantar.layouts.layout import SoleLayout
-from plantar.layouts.layout_file import read_layout
 
 _FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench", "summary", "footprint")
 PRODUCTS = {"metrics.json", "steps.csv", "regions.csv", "footprints.csv", "report.html", "summary.html"} | {
@@ -126,8 +126,8 @@ def _remove_earlier(folder: Path, names: set[str]) -> None:
 
 
 def with_layout(options: ReadOptions | None, layout: SoleLayout | str | os.PathLike[str] | None) -> ReadOptions:
-    """Returns options with a layout, or the path of its file; LayoutError if invalid."""
+    """Returns options with a layout, the path of its file, or a nominal insole such as "moticon:7"."""
     options = options or ReadOptions()
     if layout is None:
         return options
-    return dataclasses.replace(options, layout=layout if isinstance(layout, SoleLayout) else read_layout(layout))
+    return dataclasses.replace(options, layout=named_or_read_layout(layout))

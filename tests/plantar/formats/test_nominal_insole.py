@@ -5,7 +5,16 @@ import itertools
 import numpy as np
 import pytest
 
-from plantar.formats.nominal_insole import CELL_AREAS, ROWS, WIDE_ROWS, nominal_insole
+from plantar import InputError
+from plantar.formats.nominal_insole import (
+    CELL_AREAS,
+    ROWS,
+    WIDE_ROWS,
+    moticon_insole,
+    named_or_read_layout,
+    nominal_insole,
+)
+from plantar.gait.analysis.analyse import analyse
 from plantar.geometry.polygon import area, signed_margin
 
 
@@ -45,3 +54,19 @@ def test_positions_lie_in_their_cells_and_neighbours_are_mutual():
         assert signed_margin(layout.cell_polygon(i), layout.positions[i, :2]) > 0.003
         assert all(i in layout.neighbours[j] for j in layout.neighbours[i])
         assert 2 <= len(layout.neighbours[i]) <= 6
+
+
+def test_an_insole_is_named_by_maker_and_size(tmp_path):
+    """Sixteen numbered pressures of a table by the insole that they are of: the file's force is pressure times area."""
+    layout = moticon_insole(5, "right")
+    assert np.array_equal(named_or_read_layout("Moticon:5").areas, moticon_insole(5, "left").areas)
+    time = np.arange(0.0, 6.0, 0.02)
+    load = np.clip(np.sin(2.0 * np.pi * time / 1.2), 0.0, None) * 40.0
+    names = ",".join(f"right {i} [kPa]" for i in range(1, 17))
+    rows = "".join(f"{t:.2f}" + f",{p:.4f}" * 16 + "\n" for t, p in zip(time, load, strict=True))
+    (tmp_path / "walk.csv").write_text(f"time [s],{names}\n{rows}")
+    walk = analyse(tmp_path / "walk.csv", layout="moticon:5")
+    assert walk.feet["right"].steps[0]["peak_force_N"] == pytest.approx(40e3 * layout.areas.sum(), rel=0.01)
+    for wrong in ("moticon:12", "pedar:", "pedar:q"):
+        with pytest.raises(InputError, match=r"unknown size '\w*' of a (moticon|pedar) insole; allowed: "):
+            named_or_read_layout(wrong)
