@@ -7,6 +7,9 @@ from numpy.typing import NDArray
 
 from plantar.formats.plate_sides import Plate, PlateContact
 
+# `_OFTEN`, `_MIDDLE` and `_STRAIGHT` decide on little: of 20 made walks (belts of 0.3 to 1.8 m/s of one and two
+# strides, walkways) and four public recordings none is judged otherwise with 2 to 8 contacts, with 0.1 to 0.25 left out
+# at either end, or with a scatter of 0.025 to 0.3. Only 0.3 left out hides four slow belts more.
 # Contacts on each of two plates from which they are a treadmill's even where no CoP is known.
 _OFTEN = 4
 _MIDDLE = (0.15, 0.85)  # Part of a contact in which the CoP is followed: it jumps about in landing and lift-off

@@ -2,6 +2,7 @@
 
 import math
 import os
+import tokenize
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -55,7 +56,7 @@ def _head(data: bytes) -> ArrayHead | None:
         version = np.lib.format.read_magic(stream)
         reader = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         shape, fortran, dtype = reader(stream)
-    except (ValueError, EOFError, SyntaxError):
+    except (ValueError, EOFError, SyntaxError, tokenize.TokenError):  # numpy reads old headers as Python's text
         return None
     return ArrayHead(shape, dtype) if not fortran and dtype.kind in "iufb" and shape else None
 

@@ -37,6 +37,12 @@ _UNEQUAL = 0.05
 _STRIDES = 4
 
 
+# Peak of a foot as a share of the other's, and a cell's part of its foot's load as a multiple of the other foot's,
+# which no walk without crutches, and no foot, differs by.
+_WEAK = 0.6
+_OTHERWISE = 6.0
+
+
 class SilentCells(NamedTuple):
     """Cells that read 0 among loaded cells.
 
@@ -208,6 +214,40 @@ def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
                 f"{100.0 * abs(change):.0f} % from first to last step, which body weight does not: the sensor's "
                 f"gain creeps, and forces err by up to {50.0 * abs(change):.0f} % around their mean"
             )
+    return out
+
+
+def uneven_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
+    """Warnings where a walk's feet, or the same cells of both, carry loads that differ more than feet do."""
+    if recording.kind not in ("insole", "plate") or recording.raw or set(feet) != set(SIDES):
+        return []
+    steps = {side: [s["peak_force_N"] for s in gait.used] for side, gait in feet.items()}
+    if min(map(len, steps.values())) < _STRIDES:
+        return []
+    out = []
+    peaks = {side: float(np.nanmedian(own)) for side, own in steps.items()}
+    weak = min(peaks, key=lambda side: peaks[side])
+    share = peaks[weak] / peaks[other_side(weak)]
+    if share < _WEAK:
+        out.append(
+            f"the {weak} foot carries no more than {100.0 * share:.0f} % of what the {other_side(weak)} one does, and "
+            "in single support each carries the body: a sensor's gain or unit? Its forces may be too small by that"
+        )
+    left, right = (np.nansum(recording.feet[side].force, axis=0) for side in SIDES)
+    if recording.kind == "plate" or len(left) != len(right) or not 1 < len(left) < _MOSAIC:
+        return out
+    if not (left.sum() > 0.0 and right.sum() > 0.0):
+        return out
+    ratio = (left / left.sum() + 1e-9) / (right / right.sum() + 1e-9)
+    odd = np.flatnonzero((np.maximum(ratio, 1.0 / ratio) > _OTHERWISE) & (np.minimum(left, right) > 0.0))
+    if 0 < len(odd) <= 0.3 * len(left):
+        ids = recording.feet["left"].layout
+        names = ", ".join(str(i) for i in (odd + 1 if ids is None else ids.ids[odd]))
+        most = float(np.maximum(ratio, 1.0 / ratio)[odd].max())
+        out.append(
+            f"cell {names} carries {most:.2g} times as large a part of one "
+            "foot's load as of the other's: a cell's gain? Forces and contact times may err by its part"
+        )
     return out
 
 

@@ -16,6 +16,7 @@ from plantar.gait.analysis.health import (
     mirrored_doubts,
     scrambled_doubts,
     silent_cell_doubts,
+    uneven_doubts,
     weight_doubts,
 )
 from plantar.gait.analysis.measure_errors import errors_of_foot
@@ -66,6 +67,7 @@ def metrics_of(
     segments = () if standing else segments_of(feet)
     warnings += _segment_notes(segments, feet)
     warnings += silent_cell_doubts(recording) + scrambled_doubts(recording) + creep_doubts(feet)
+    warnings += uneven_doubts(recording, feet)
     warnings += progression_doubts(recording, feet) + mirrored_doubts(recording, feet)
     warnings += weight_doubts(recording, weight) + mass_doubts(subject, weight)
     named = naming(recording.raw)

@@ -6,10 +6,17 @@ import numpy as np
 import pytest
 
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.gait.analysis.health import creep_doubts, scrambled_doubts, silent_cell_doubts, silent_cells
+from plantar.gait.analysis.health import (
+    creep_doubts,
+    scrambled_doubts,
+    silent_cell_doubts,
+    silent_cells,
+    uneven_doubts,
+)
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.baseline import without_baselines
+from plantar.recordings.pressure_recording import FootRecording
 
 from .test_activity import standing
 from .vendor_texts import matrix_insoles
@@ -31,6 +38,24 @@ def test_silent_cells_and_what_they_lack(share):
     assert found.missing == pytest.approx(lost, rel=0.35)
     assert any("% too low" in line for line in silent_cell_doubts(broken))
     assert silent_cell_doubts(recording) == []
+
+
+def test_loads_that_differ_more_than_feet_do():
+    recording = made_walk(strides=6, rate=50.0).recording
+    parts = {s: np.array_split(foot.force, 5, axis=1) for s, foot in recording.feet.items()}
+    few = {s: np.column_stack([part.sum(axis=1) for part in own]) for s, own in parts.items()}
+    for cell, gain, told in (
+        (0, 1.0, ""),
+        (2, 0.1, "cell 3 carries"),
+        (slice(None), 0.4, "the left foot carries no more than"),
+    ):
+        left = few["left"].copy()
+        left[:, cell] *= gain
+        feet = {s: FootRecording(s, left if s == "left" else few[s], None) for s in ("left", "right")}
+        odd = replace(recording, feet=feet)
+        notes = uneven_doubts(odd, analyse_feet(odd))
+        assert all(told in note for note in notes[:1])
+        assert bool(notes) == bool(told)
 
 
 def test_gain_that_creeps():

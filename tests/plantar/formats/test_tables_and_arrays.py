@@ -252,6 +252,15 @@ def test_a_pickled_array_runs_no_code(tmp_path, name):
     assert not (tmp_path / "ran").exists()
 
 
+def test_an_array_whose_head_breaks_off_is_refused(tmp_path):
+    """Numpy takes the head of an array for Python's text, whose brackets may stay open."""
+    path = tmp_path / "walk.npy"
+    np.save(path, np.ones((40, 3)))
+    path.write_bytes(path.read_bytes().replace(b"'shape': (40, 3), }", b"'shape': (40, 3L, }"))
+    with pytest.raises(FormatError):
+        read_recording(path)
+
+
 def test_a_plantar_recording_survives_the_way_over_npz_and_csv(tmp_path, layout, values):
     from plantar.recordings.recorder import Recorder
     from plantar.recordings.recording import read_mcap
