@@ -35,6 +35,9 @@ _CREEP = 1.0  # s within which creep follows; of the lags of 0.3 to 3 s any fits
 _FIRST_PEAK = 0.05  # of a taxel's largest counts that a new contact is taken to reach at least
 
 
+_MOST_COUNTS = 2.0**53  # beyond, a float holds no whole numbers: no converter gives them, so they are not measured
+
+
 @dataclass(frozen=True, eq=False)
 class SoleCalibration:
     """Response of one sole's taxels; n taxels in the layout's order.
@@ -125,12 +128,13 @@ class SoleCalibration:
             offset: Counts (n,) without load.
             error: Relative standard error of each gain, independent.
         """
-        gains = np.atleast_1d(np.asarray(gain, dtype=np.float64))
+        gains = array(gain, "gain", ("n",), finite=True)
         n = len(gains)
+        offsets = array(offset, "offset", (n,), finite=True)
         covariance = error**2 * np.eye(n)
         zeros = np.zeros(n)
         pair = np.zeros(2)
-        return cls(gains, np.asarray(offset, float), covariance, 1.0, pair, zeros, pair, np.ones(n), 0.0, np.zeros(5))
+        return cls(gains, offsets, covariance, 1.0, pair, zeros, pair, np.ones(n), 0.0, np.zeros(5))
 
     @property
     def gain_error(self) -> NDArray[np.float64]:
@@ -145,8 +149,9 @@ class SoleCalibration:
             layout: The sole's, whose neighbours share crosstalk; None leaves that uncorrected.
             rate: Frames a second.
         """
+        frames = array(counts, "counts", ("k", len(self)))
         stream = CountStream(self, layout, rate)
-        return np.array([stream.force(row) for row in np.asarray(counts, dtype=np.float64)]).reshape(-1, len(self))
+        return np.array([stream.force(row) for row in frames]).reshape(-1, len(self))
 
     def cop_deviation(self, layout: Sole, force: ArrayLike) -> NDArray[np.float64] | None:
         """Standard deviation (2,) in m of the center of pressure by the gains' errors; None without load.
@@ -155,7 +160,7 @@ class SoleCalibration:
             layout: The sole's.
             force: Force (n,) of each taxel in N, NaN where unmeasured.
         """
-        share = np.nan_to_num(np.asarray(force, dtype=np.float64)) * layout.rotations[:, 2, 2]
+        share = np.nan_to_num(array(force, "force", (len(self),))) * layout.rotations[:, 2, 2]
         total = share.sum()
         if not total > 0.0:
             return None
@@ -166,7 +171,7 @@ class SoleCalibration:
 
     def load_deviation(self, force: ArrayLike) -> float:
         """Relative standard deviation of the summed force (n,) by the gains' errors; 0 without load."""
-        share = np.nan_to_num(np.asarray(force, dtype=np.float64))
+        share = np.nan_to_num(array(force, "force", (len(self),)))
         total = share.sum()
         if not total > 0.0:
             return 0.0
@@ -257,7 +262,8 @@ class CountStream:
         if time is not None:
             period = None if self._time is None else max(0.0, time - self._time)
             self._time = time
-        given = np.asarray(counts, dtype=np.float64) - known.offset
+        read = array(counts, "counts", (len(known),))
+        given = np.where(np.abs(read) <= _MOST_COUNTS, read, np.nan) - known.offset
         above = np.nan_to_num(given)
         loops = self._loops.advance(above, period)
         level = above + known.hysteresis[0] * loops[0] + known.hysteresis[1] * loops[1]

@@ -15,6 +15,7 @@ from plantar import batch
 from plantar.geometry import enclosing, inscribed, outline, polygon
 from plantar.geometry.cell_cutting import CellCutter, half_planes
 from plantar.layouts import cell_edges, cell_layout, curved_sole, taxel_values, tiling
+from plantar.layouts.calibration import CountStream, SoleCalibration
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics import external_wrench, lip, wrench, zmp
@@ -62,6 +63,13 @@ INNER: frozenset[str] = frozenset(
         *(f"wrench_distribution.WrenchDistribution.{name}" for name in ("program", "solve")),
         "wrench_distribution.Program",
         *("cell_edges.cells_overlap", "taxel_values.without_dead"),
+        # Made by the fit and by the reader of layout files, which checks each field.
+        *("calibration.SoleCalibration", "calibration.response"),
+        *("calibration.LoopState", "calibration.LoopState.advance"),
+        # Made and asked by the reader of walkways and by prints, with cells of the grid.
+        *(f"cell_grid.CellGrid{name}" for name in ("", ".cell_rings", ".groups", ".of_cells")),
+        "layout.SoleLayout.cell_rings",
+        *("cell_patch.pressed_patch", "cell_patch.reach_of"),
         # Called by those that lay out cells, whose own calls hand it wrong outlines.
         "cell_layout.checked_ring",
         *("cell_cutting.CellCutter.of_polygons", "polygon.part_inside"),
@@ -197,6 +205,7 @@ def public_calls() -> list[Call]:
         *_of_wrenches(sole),
         *_of_batches(sole),
         *_of_objects(sole),
+        *_of_calibrations(sole),
     ]
 
 
@@ -312,6 +321,27 @@ def _reading(sole: SoleLayout, called: str = "force", frames: bool = False) -> A
     n = len(sole)
     value = np.stack([_force(n), _force(n)[::-1]]) if frames else _force(n)
     return Argument(value, (..., n) if frames else (n,), called, nan=True)
+
+
+def _of_calibrations(sole: SoleLayout) -> list[Call]:
+    n = len(sole)
+    known = SoleCalibration.linear(np.full(n, 0.5), np.full(n, 8.0), 0.125)
+    counts = 8.0 + 2.0 * _force(n)
+    return [
+        _call(
+            SoleCalibration.linear,
+            gain=Argument(np.full(n, 0.5), ("n",), "gain offset"),
+            offset=Argument(np.full(n, 8.0), ("n",), "offset"),
+        ),
+        _call(known.forces, counts=Argument(np.stack([counts, counts[::-1]]), ("k", n), "counts", nan=True)),
+        _call(partial(known.cop_deviation, sole), force=_reading(sole)),
+        _call(known.load_deviation, force=_reading(sole)),
+        Call(
+            "calibration.CountStream.force",
+            lambda counts: CountStream(known).force(counts),
+            {"counts": Argument(counts, (n,), "counts", nan=True)},
+        ),
+    ]
 
 
 def _far(sole: SoleLayout, frames: bool = False) -> Argument:

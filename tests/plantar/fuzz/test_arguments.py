@@ -27,7 +27,7 @@ def test_every_public_function_that_takes_arrays_has_a_call():
 
 def test_what_the_package_exports_lies_in_the_rooms_that_are_walked():
     doors = {"read", "analyse", "analyze", "sole", "view", "mujoco", "run"}
-    doors |= {"load_robot", "load_controller", "load_scene"}
+    doors |= {"load_robot", "load_controller", "load_scene", "calibrate"}
     for name in {*plantar.__all__} - doors:
         module = getattr(getattr(plantar, name), "__module__", "plantar.errors") or "plantar.errors"
         assert module.split(".")[1] in (*ROOMS, "errors", "layouts", "batch"), name
