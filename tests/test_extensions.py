@@ -20,7 +20,7 @@ from plantar.formats import read_recording
 
 ROOT = Path(__file__).resolve().parent.parent
 
-PARTS = ("ditch", "high_swing", "further", "calm_law", "weigh", "hold", "packets")
+PARTS = ("ditch", "high_swing", "further", "calm_law", "weigh", "hold", "datagrams")
 """Files of the tutorial, in its order."""
 
 PAGES = ROOT / "docs" / "tutorials"
@@ -164,15 +164,15 @@ def test_a_live_source_of_a_users_package(plugin):
     sender = threading.Thread(target=send)
     sender.start()
     options = ("--layout", "layout.json", "--seconds", "0.2", "-o", "run.mcap", "--json")
-    done = plantar(plugin, "live", f"packets:{port}", *options)
+    done = plantar(plugin, "live", f"datagrams:{port}", *options)
     over.set()
     sender.join()
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["feet"]["left"]["frames"] > 2
     assert read_recording(plugin / "run.mcap").feet["left"].vertical_force[1] == pytest.approx(2.0 * len(sole))
-    assert "packets" in plantar(plugin, "list", "sources").stdout
-    refused = plantar(plugin, "live", "packets")
-    assert (refused.returncode, "allowed: packets:PORT" in refused.stderr) == (2, True)
+    assert "datagrams" in plantar(plugin, "list", "sources").stdout
+    refused = plantar(plugin, "live", "datagrams")
+    assert (refused.returncode, "allowed: datagrams:PORT" in refused.stderr) == (2, True)
 
 
 @pytest.mark.sample(2)
@@ -183,7 +183,7 @@ def test_a_live_source_of_a_users_package(plugin):
         ("plantar.terrain", "flat", "mine.ditch:Ditch", ("flat = mine.ditch:Ditch", "taken name")),
         ("plantar.formats", "csv", "mine.mysole:FORMAT", ("csv = mine.mysole:FORMAT", "taken name")),
         ("plantar.swings", "low", "mine.gone:Low", ("mine.gone:Low", "No module named")),
-        ("plantar.live", "replay", "mine.packets:SOURCE", ("replay = mine.packets:SOURCE", "taken name")),
+        ("plantar.live", "replay", "mine.datagrams:SOURCE", ("replay = mine.datagrams:SOURCE", "taken name")),
     ],
 )
 def test_a_part_that_cannot_be_used_is_named(plugin, group, name, value, words):
