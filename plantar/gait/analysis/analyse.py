@@ -2,7 +2,6 @@
 
 import dataclasses
 import os
-import tempfile
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,6 +10,7 @@ from plantar.gait.analysis.analyse_one import Progress, analyse_one, analyse_rec
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.study.run_study import Study, run_study
+from plantar.gait.analysis.study.stored_steps import KeptFolder
 from plantar.gait.analysis.subject import Subject
 from plantar.layouts.layout import SoleLayout
 
@@ -65,7 +65,8 @@ def analyse(
     changes = {k: v for k, v in (("unit", unit), ("rate_hz", rate_hz), ("columns", columns)) if v is not None}
     known = dataclasses.replace(known, **changes)  # type: ignore[arg-type]
     if isinstance(given, str | os.PathLike) and is_study_folder(given):
-        with tempfile.TemporaryDirectory() as folder:
-            study = run_study(given, folder, progress=progress, choices=choices, options=known, figures=False)
+        folder = KeptFolder()
+        study = run_study(given, folder.path, progress=progress, choices=choices, options=known, figures=False)
+        folder.keep_for(result.rows for result in study.results)
         return dataclasses.replace(study, files=())
     return analyse_one(given, format, known, progress, choices, subject)

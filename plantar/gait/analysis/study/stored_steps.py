@@ -4,8 +4,10 @@ A study of any size holds the means of its recordings in memory; its steps are r
 """
 
 import json
+import weakref
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, overload
 
 import numpy as np
@@ -25,6 +27,7 @@ class StoredRows(Rows):
     def __init__(self, path: Path, count: int) -> None:
         self.path = path
         self._count = count
+        self.folder: KeptFolder | None = None  # kept as long as these rows, where nobody else keeps it
 
     def __len__(self) -> int:
         return self._count
@@ -48,6 +51,21 @@ class StoredRows(Rows):
         except Exception as error:  # removed or cut short while the study goes on
             raise InputError(f"{self.path}: the stored steps are gone ({error}); run the study again") from None
         return rows
+
+
+class KeptFolder:
+    """A temporary folder that lives as long as the rows that lie in it."""
+
+    def __init__(self) -> None:
+        folder = TemporaryDirectory(prefix="plantar-")
+        self.path = Path(folder.name)
+        weakref.finalize(self, folder.cleanup)
+
+    def keep_for(self, each: Iterable[Rows]) -> None:
+        """Keep it for stored rows; others hold what they need."""
+        for rows in each:
+            if isinstance(rows, StoredRows):
+                rows.folder = self
 
 
 def write_csv(path: Path, names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Path:
