@@ -1,12 +1,15 @@
 """`plantar calibrate`: turn counts of soles into newtons, or check that they still are."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
 from plantar.common.console.command import Command, Json, end_command
 from plantar.errors import InputError
+
+if TYPE_CHECKING:
+    from plantar.calibration import Take
 
 
 def calibrate(
@@ -53,43 +56,80 @@ def calibrate(
 
     Example: plantar calibrate check mine.json today.csv --mass 71.5
     """
-    from plantar.calibration import calibrate as fitted
-    from plantar.calibration import check_calibration, read_take
-    from plantar.common.atomic import keep_inputs, parent_folder
-    from plantar.layouts.layout_file import read_layout, write_layout
+    load = _load_of(weight, mass)
+    if str(layout) == "check":
+        _check(checked, recording, load, as_json)
+        return
+    if checked is not None or recording is not None:
+        raise InputError("recordings are given by --zero, --press and --motion; allowed beside: check LAYOUT RECORDING")
+    files = {
+        "zero": zero or [],
+        "press": press or [],
+        "scale": scale or [],
+        "motion": motion or [],
+        "reference": reference or [],
+    }
+    _fit(layout, files, load, output, as_json)
+
+
+def _load_of(weight: float | None, mass: float | None) -> float | None:
+    """Weight in N of the body by either option; None without one."""
     from plantar.mechanics.lip import GRAVITY
 
     if weight is not None and mass is not None:
         raise InputError("weight and mass are both given; allowed: one of them")
-    load = mass * GRAVITY if mass is not None else weight
+    load = weight if mass is None else mass * GRAVITY
     if load is not None and not 0.0 < load < 1e5:
         raise InputError(f"a body of {load:g} N; allowed: above 0 and below 100000 N")
-    if str(layout) == "check":
-        if checked is None or recording is None or load is None:
-            raise InputError("check needs them all: plantar calibrate check LAYOUT RECORDING --mass 71.5")
-        result = check_calibration(read_take("motion", recording, load), read_layout(checked))
-        end_command(result.as_dict(), as_json, result.text(), result.failures, not result.holds)
-        return
-    if checked is not None or recording is not None:
-        raise InputError("recordings are given by --zero, --press and --motion; allowed beside: check LAYOUT RECORDING")
-    takes = [read_take("zero", file) for file in zero or []]
-    if len(press or []) != len(scale or []):
-        raise InputError(f"{len(press or [])} of --press and {len(scale or [])} of --scale; allowed: one for each")
-    takes += [read_take("press", file, reference=table) for file, table in zip(press or [], scale or [], strict=True)]
-    if reference and len(reference) != len(motion or []):
-        raise InputError(f"{len(motion or [])} of --motion and {len(reference)} of --reference; allowed: one for each")
-    tables: list[Path | None] = [*reference] if reference else [None] * len(motion or [])
-    if motion and not reference and load is None:
-        raise InputError("--motion needs --weight or --mass of the body, or --reference")
-    takes += [
-        read_take("motion", file, load if table is None else None, table)
-        for file, table in zip(motion or [], tables, strict=True)
-    ]
-    found = fitted(takes, read_layout(layout))
-    keep_inputs(output, [*(zero or []), *(press or []), *(scale or []), *(motion or []), *(reference or [])])
+    return load
+
+
+def _check(layout: Path | None, recording: Path | None, load: float | None, as_json: bool) -> None:
+    """Whether a layout's calibration still holds for a body of a known weight."""
+    from plantar.calibration import check_calibration, read_take
+    from plantar.layouts.layout_file import read_layout
+
+    if layout is None or recording is None or load is None:
+        raise InputError("check needs them all: plantar calibrate check LAYOUT RECORDING --mass 71.5")
+    result = check_calibration(read_take("motion", recording, load), read_layout(layout))
+    end_command(result.as_dict(), as_json, result.text(), result.failures, not result.holds)
+
+
+def _fit(layout: Path, files: dict[str, list[Path]], load: float | None, output: Path, as_json: bool) -> None:
+    """Calibrate a layout by files of each kind, and write it."""
+    from plantar.calibration import calibrate as fitted
+    from plantar.common.atomic import keep_inputs, parent_folder
+    from plantar.layouts.layout_file import read_layout, write_layout
+
+    found = fitted(_takes(files, load), read_layout(layout))
+    keep_inputs(output, [file for kind in files.values() for file in kind])
     with parent_folder(output):
         write_layout(found.layout, output)
     end_command({**found.as_dict(), "file": str(output)}, as_json, f"{found.text()}\n  {output}")
+
+
+def _takes(files: dict[str, list[Path]], load: float | None) -> "list[Take]":
+    """What was measured: each press with its scale, each motion with its reference or the body's weight."""
+    from plantar.calibration import read_take
+
+    for kind, beside in (("press", "scale"), ("motion", "reference")):
+        optional = kind == "motion" and not files[beside]
+        if not optional and len(files[kind]) != len(files[beside]):
+            raise InputError(
+                f"{len(files[kind])} of --{kind} and {len(files[beside])} of --{beside}; allowed: one for each"
+            )
+    if files["motion"] and not files["reference"] and load is None:
+        raise InputError("--motion needs --weight or --mass of the body, or --reference")
+    takes = [read_take("zero", file) for file in files["zero"]]
+    takes += [read_take("press", *pair) for pair in _with_table(files["press"], files["scale"])]
+    if files["reference"]:
+        return takes + [read_take("motion", *pair) for pair in _with_table(files["motion"], files["reference"])]
+    return takes + [read_take("motion", file, load) for file in files["motion"]]
+
+
+def _with_table(files: list[Path], tables: list[Path]) -> list[tuple[Path, None, Path]]:
+    """Arguments of `read_take` for recordings with a table beside each."""
+    return [(file, None, table) for file, table in zip(files, tables, strict=True)]
 
 
 COMMAND = Command(calibrate, "Turn counts of soles into newtons, with their uncertainty.", 46)
