@@ -19,6 +19,7 @@ PURPOSES = {
     "sim": "plantar sim, sweep, robot, demo: walking in MuJoCo",
     "formats": "ROS bags, C3D files and images of footprints",
     "study": "mixed models and workbooks of a study",
+    "parquet": "plantar analyze --parquet: steps of a study as Parquet",
     "warp": "skin in many worlds of MuJoCo Warp at once",
     "gym": "environments for learning, PlantarWalk-v0",
     "cluster": "plantar sweep --scheduler: workers on other machines",

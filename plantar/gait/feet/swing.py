@@ -1,11 +1,11 @@
 """Swing: minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33), with slow final approach."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.lazy import lazy
 from plantar.kernels.gait.swing_path import SwingPath
 
 
@@ -43,8 +43,9 @@ class SwingTrajectory:
     approach_speed: float = 0.06
     rises_first: bool = False
 
-    def __post_init__(self) -> None:
-        path = SwingPath(
+    @lazy
+    def _path(self) -> SwingPath:
+        return SwingPath(
             (*self.start.tolist(), self.yaw_start),
             (*self.end.tolist(), self.yaw_end),
             self.height,
@@ -53,10 +54,6 @@ class SwingTrajectory:
             (self.approach_height, self.approach_speed),
             self.rises_first,
         )
-        object.__setattr__(self, "_path", path)
-
-    if TYPE_CHECKING:
-        _path: ClassVar[SwingPath]  # no field: it follows from the others
 
     @property
     def lifted(self) -> float:
