@@ -130,7 +130,7 @@ def test_the_sdist_holds_what_the_wheel_is_built_of_in_less_than_2_mb(tmp_path):
 def test_the_wheel_holds_code_and_data(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = {n for n in archive.namelist() if ".dist-info/" not in n}
-    data = {".toml", ".xml", ".json", ".html", ".css", ".js", ".typed", ".bin", ".txt"}
+    data = {".toml", ".xml", ".json", ".html", ".css", ".js", ".typed", ".bin", ".txt", ".c", ".h"}
     wanted = {
         p.as_posix()
         for p in tracked()

@@ -99,16 +99,21 @@ def test_a_report_gives_the_same_shoe_again(exported):
     assert read_parameters(folder / "check.json") == report.build.parameters
 
 
+def cell_area_of(exported) -> float:
+    """Area in mm^2 of the cells of the shoes that all tests share."""
+    return round(1e6 * exported[0].build.shoes[0].layout.cell_area, 6)
+
+
 @pytest.mark.long
 def test_the_same_foot_gives_the_same_bytes(small_foot, exported, tmp_path):
-    export_shoe(build_shoe(small_foot, side="right"), tmp_path)
+    export_shoe(build_shoe(small_foot, side="right", cell_area=cell_area_of(exported)), tmp_path)
     for path in tmp_path.iterdir():
         if path.name not in ("assembly.html", "check.json", "parts.csv", "wiring.csv"):  # which list both sides there
             assert path.read_bytes() == (exported[1] / path.name).read_bytes(), path.name
 
 
 def test_the_same_foot_gives_the_same_layout_to_the_last_bit(small_foot, exported):
-    (again,) = build_shoe(small_foot, side="right", layout_only=True).shoes
+    (again,) = build_shoe(small_foot, side="right", cell_area=cell_area_of(exported), layout_only=True).shoes
     (before,) = (shoe for shoe in exported[0].build.shoes if shoe.side == "right")
     for name in ("positions", "rotations", "vertices", "areas", "outline", "ids"):
         assert getattr(again.layout, name).tobytes() == getattr(before.layout, name).tobytes(), name

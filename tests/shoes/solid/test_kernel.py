@@ -54,7 +54,8 @@ def test_the_surface_is_closed_and_points_outwards(exported):
 
 
 def test_the_sides_mirror_each_other_but_for_the_mark(small_foot, exported):
-    build = build_shoe(small_foot, parameters=ShoeParameters(mark_height=0.0))
+    area = round(1e6 * exported[0].build.shoes[0].layout.cell_area, 6)
+    build = build_shoe(small_foot, cell_area=area, parameters=ShoeParameters(mark_height=0.0))
     left, right = (shoe.solid for shoe in build.shoes)
     assert left.volume == pytest.approx(right.volume, rel=1e-6)
     marked = exported[0].build.shoes[0].solid

@@ -37,7 +37,7 @@ def test_a_short_edge_is_contracted():
 
 def test_the_surface_of_a_shoe_has_no_fold_and_no_short_edge():
     triangles = turned(FAMILY["of_65_mm"](), *small_turns("of_65_mm")[1])
-    shoe = build_shoe(foot_from_triangles("a", triangles, where="a"), side="left").shoes[0]
+    shoe = build_shoe(foot_from_triangles("a", triangles, where="a"), side="left", cell_area=258.0).shoes[0]
     assert is_closed(shoe.surface)
     assert shoe.solid is not None
     ends = shoe.solid.corners[np.array(list(shoe.solid.neighbours))]

@@ -8,6 +8,7 @@ import pytest
 
 from plantar.errors import InputError, SceneError
 from plantar.recordings.recording import read_mcap
+from plantar.robots import load_robot
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.run.scene_kind import run
@@ -205,8 +206,11 @@ def test_the_controllers_settings_do_not_depend_on_the_ground():
         "pebbles": ["kind=pebbles"],
     }
     made = [Simulation(load_scene("flat", ["steps=2", *terrain], "hrp2kai")).settings for terrain in ground.values()]
-    assert all(settings.com_height == pytest.approx(0.84) for settings in made)
-    assert all(settings.partial_rise == pytest.approx(0.015) for settings in made)
+    robot = load_robot("hrp2kai")
+    height = robot.com_height - robot.largest_crouch
+    assert all(settings.com_height == pytest.approx(height) for settings in made)
+    rise = robot.largest_crouch - robot.largest_crouch_partial
+    assert all(settings.partial_rise == pytest.approx(rise) for settings in made)
 
 
 def test_a_sole_with_a_waist_walks_on_the_hull_of_its_outline(tmp_path, repository):

@@ -67,7 +67,7 @@ def test_a_cluster_gives_the_same_rows_to_the_last_bit(tmp_path):
         for name in ("cluster", "local")
     )
     assert there == here
-    assert len({(r["zmp_margins_mm"], r["position_error_m"]) for r in here}) == 4
+    assert len({tuple(v for k, v in r.items() if k not in ("seed", "friction")) for r in here}) == 4
 
 
 def test_more_points_than_there_is_room_for_words_are_drawn(tmp_path):
