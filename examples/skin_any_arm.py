@@ -4,7 +4,7 @@
     python examples/skin_any_arm.py panda.xml 87,87,87,87,12,12,12 link5 link7  your model, torques in N m, links
     python examples/skin_any_arm.py ur5e.xml 150,150,150,28,28,28 forearm_link wrist_3_link     and last the hand
 
-Gains that torques and period cannot hold are warned of before it moves. Needs: pip install "plantar[sim]"
+Gains that torques and period cannot hold are warned of before it moves. Needs the extra `sim`
 """
 
 import sys
