@@ -10,6 +10,7 @@ TRIANGLE = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
+@pytest.mark.long
 def test_references_give_what_is_known_of_a_triangle():
     assert exact.hull_area_exact(TRIANGLE) == 6.0
     assert exact.triangle_area_exact(TRIANGLE) == 6.0

@@ -24,6 +24,7 @@ def value_of(settings: object, table: str, name: str) -> object:
     return getattr(part, name) if hasattr(part, name) else getattr(part.feet, name)
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("table", CONTROLLER_TABLES)
 def test_every_setting_is_reached_by_its_dotted_name(table):
     for robot in ("h1", "hrp2kai"):

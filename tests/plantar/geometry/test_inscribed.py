@@ -88,6 +88,7 @@ def test_parallelogram_is_the_best_of_a_search(seed):
     assert np.allclose(corners[0] + corners[2], corners[1] + corners[3], atol=1e-15)
 
 
+@pytest.mark.long
 @settings(max_examples=10)
 @given(seeds)
 def test_rectangle_is_the_best_of_a_search(seed):

@@ -174,6 +174,7 @@ def planar(ranges: Sequence[float]) -> Robot:
     return model, mujoco.MjData(model)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("distance", [0.001, 0.05, 1.0, 100.0])
 @pytest.mark.parametrize("angle", [0.3, -1.2, 2.5])
 def test_out_of_reach_it_points_at_the_target_and_stands_still(angle, distance):

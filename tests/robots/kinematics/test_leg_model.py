@@ -166,6 +166,7 @@ def swings_out_of_reach() -> dict[str, Swing]:
     }
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("case", swings_out_of_reach())
 def test_a_swing_out_of_reach_does_not_move_the_stance(robot, case):

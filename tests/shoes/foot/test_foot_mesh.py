@@ -109,6 +109,7 @@ def test_a_plate_is_a_foot_whichever_way_it_lies(box, stl):
         assert any("a plate of 2 mm" in note for note in foot.notes)
 
 
+@pytest.mark.long
 def test_a_surface_whose_triangles_do_not_join_has_the_outline_of_one_that_does():
     foot = rounded(160, 20)
     apart = foot + np.random.default_rng(0).normal(0.0, 0.005, (len(foot), 1, 3))

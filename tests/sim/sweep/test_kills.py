@@ -148,6 +148,7 @@ def cluster(folder: Path, workers: int = 1, nanny: bool = True) -> Iterator[tupl
                 child.kill() if child.is_running() else None
 
 
+@pytest.mark.long
 def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(tmp_path):
     sweep = start(*SWEEP, "--workers=2", "-o", tmp_path)
     until(lambda: len(rows(tmp_path)) >= 2, "no rows")

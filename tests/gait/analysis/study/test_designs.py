@@ -26,6 +26,7 @@ def design_of(levels: int, within: bool) -> Design:
     return Design(who, level, np.zeros((len(level), 0)), within)
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("within", [True, False])
 @pytest.mark.parametrize("levels", [2, 4])
 def test_one_family_over_all_pairs_errs_in_5_of_100(levels, within):
@@ -68,6 +69,7 @@ def test_a_covariate_that_differs_between_levels_is_no_difference():
     assert planted > 0.9 * DRAWS
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("shape", [(60,), (12, 8)])
 def test_curves_and_maps_err_in_5_of_100_over_all_pairs(shape):
     random = seeded(f"cluster {shape}")
