@@ -82,6 +82,7 @@ def test_recordings_are_analysed_compared_and_studied(page, environment, tmp_pat
     assert (tmp_path / "out" / page).is_file()
 
 
+@pytest.mark.long
 def test_a_sensor_is_recorded_and_viewed(environment, tmp_path):
     run(environment, tmp_path, ROOT / "examples" / "record_own_sensor.py", "run.mcap")
     run(environment, tmp_path, "-m", "plantar", "analyze", "run.mcap", "-o", "walk")

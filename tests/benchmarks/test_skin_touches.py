@@ -24,6 +24,7 @@ def test_a_limb_agrees_with_the_count():
     check(counted("limb", mujoco.MjSpec.from_string(LIMB), 1))
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not ROBOTS.exists(), reason="needs PLANTAR_REAL_DATA")
 @pytest.mark.parametrize("robot", ["robotis_op3/op3.xml"])
 def test_a_public_robot_agrees_with_the_count(robot):

@@ -105,6 +105,7 @@ def test_a_library_that_is_new_enough_is_well(tmp_path, monkeypatch):
     assert examine({"sim": {"mujoco": "sound"}})["holds"]
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("library", ["typer", "rich"])
 def test_the_command_without_its_own_library_is_one_line_that_installs_it(library):
     code = f"import sys; sys.modules[{library!r}] = None; sys.argv = ['plantar', 'doctor']"

@@ -159,6 +159,7 @@ def test_a_robots_model_and_a_drawing_give_layouts(run, stl, box, tmp_path):
     assert json.loads((tmp_path / "c" / "layout_left.json").read_text())["name"] == "box"
 
 
+@pytest.mark.long
 def test_a_step_file_is_a_foot(run, tmp_path):
     from plantar.shoes.plan.block import Step, box_block
     from plantar.shoes.solid.kernel import build_solid

@@ -100,6 +100,7 @@ def test_the_doctor_names_the_missing_kernel(incomplete):
     assert line() in done.stderr
 
 
+@pytest.mark.sample(2)
 @needs_extensions
 @pytest.mark.parametrize(
     "words", [("sim", "flat"), ("sweep", "flat", "--seeds", "1"), ("demo",), ("bench", "skip"), ("bench", "footholds")]

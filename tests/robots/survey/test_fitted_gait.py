@@ -58,6 +58,7 @@ def test_weak_motors_make_a_walk_slower():
     assert max(weak.reach.carrying / weak.robot.effort_limits) < 1.0
 
 
+@pytest.mark.long
 def test_slow_joints_make_a_walk_slower():
     h1 = replace(load_robot("h1"), effort_limits=(1000.0,) * 6)
     quick = fit_gait(replace(h1, velocity_limits=(50.0,) * 6))

@@ -60,6 +60,7 @@ def test_the_moment_about_the_com_is_that_of_inverse_dynamics():
     assert off < 0.15 * size
 
 
+@pytest.mark.long
 def test_a_robot_whose_legs_would_rock_it_walks_more_slowly():
     h1 = replace(load_robot("h1"), effort_limits=(1000.0,) * 6)
     heavy = replace(h1, biped=replace(h1.biped, link_masses=[2.5 * mass for mass in h1.biped.link_masses]))

@@ -61,6 +61,7 @@ def test_simple_shapes_of_a_body_and_what_is_fixed_to_it(tmp_path, box, angle):
     assert bounds(found.triangles) == pytest.approx([-0.07, -0.04, -0.1, 0.15, 0.04, -0.06], abs=1e-3)
 
 
+@pytest.mark.long
 def test_toes_that_move_are_among_what_the_shoe_must_leave_free(tmp_path, box):
     path = mjcf(tmp_path, box)
     fixed = read_foot_body(path, "left_foot")

@@ -66,6 +66,7 @@ def walkway(steps=6, first="left", reverse=False, across=False, cut=False, headi
     return recording, truth
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize(
     "options",
     [
