@@ -56,9 +56,7 @@ class Take:
         kept = self.__dict__  # past what keeps others from assigning
         if self.kind not in get_args(TakeKind):
             raise InputError(f"{self.name} is {self.kind!r}; allowed: {', '.join(get_args(TakeKind))}")
-        time = own(
-            array(numbers(self.time, f"{self.name}: time", InputError), f"{self.name}: time", ("any",), InputError)
-        )
+        time = own(array(self.time, f"{self.name}: time", ("any",), InputError))
         kept["time"] = time
         if len(time) < _FEWEST:
             raise InputError(f"{self.name} holds {len(time)} frames; allowed: {_FEWEST} or more")
@@ -79,7 +77,7 @@ class Take:
         if side not in SIDES:
             raise InputError(f"{self.name} holds counts of {side!r}; allowed: left, right")
         what = f"{self.name}: counts of the {side} sole"
-        found = own(array(numbers(rows, what, InputError), what, (len(self.time), "any"), InputError))
+        found = own(array(rows, what, (len(self.time), "any"), InputError))
         if np.isinf(found).any():
             raise InputError(f"{what} hold a value that is infinite")
         return found
@@ -90,7 +88,7 @@ class Take:
                 raise InputError(f"{self.name} needs a load in N; allowed without: kind zero")
             return None
         what = f"{self.name}: load"
-        given = np.asarray(numbers(self.load, what, InputError), dtype=np.float64)
+        given = numbers(self.load, what, InputError)
         found = (
             np.full(len(self.time), float(given))
             if given.ndim == 0
@@ -105,7 +103,7 @@ class Take:
         if side not in self.counts:
             raise InputError(f"{self.name} gives a center of pressure of the {side} sole, of which it has no counts")
         what = f"{self.name}: center of pressure of the {side} sole"
-        found = own(array(numbers(places, what, InputError), what, (len(self.time), 2), InputError))
+        found = own(array(places, what, (len(self.time), 2), InputError))
         if np.nanmax(np.abs(found), initial=0.0) > 1.0:
             raise InputError(f"{what} lies more than 1 m from the sole's origin")
         return found

@@ -99,7 +99,7 @@ class SoleCalibration:
         }
         for name, shape in shapes.items():
             what = f"layout field 'calibrations.{name}'"
-            kept[name] = own(array(numbers(getattr(self, name), what, LayoutError), what, shape, LayoutError))
+            kept[name] = own(array(getattr(self, name), what, shape, LayoutError))
             if not np.isfinite(kept[name]).all():
                 raise LayoutError(f"{what} holds a value that is not finite")
         for name in ("reference", "crosstalk"):
