@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, fields
 from typing import Any, Protocol
 
 import numpy as np
@@ -33,8 +33,6 @@ _TURN = 0.05  # of a contact's peak by which counts change until they are on the
 _UNLOADED = 0.01  # of a taxel's largest counts below which a contact has ended
 _CREEP = 1.0  # s within which creep follows; of the lags of 0.3 to 3 s any fits polymers' loops on feet
 _FIRST_PEAK = 0.05  # of a taxel's largest counts that a new contact is taken to reach at least
-
-
 _MOST_COUNTS = 2.0**53  # beyond, a float holds no whole numbers: no converter gives them, so they are not measured
 
 
@@ -206,18 +204,7 @@ class SoleCalibration:
         """
         if not isinstance(source, Mapping):
             raise LayoutError(f"{where}: field 'calibrations' holds no JSON object for a side")
-        names = (
-            "gain",
-            "offset",
-            "covariance",
-            "reference",
-            "curve",
-            "curve_deviation",
-            "hysteresis",
-            "top",
-            "crosstalk",
-            "shared_error",
-        )
+        names = [one.name for one in fields(cls) if one.default is MISSING]
         missing = [name for name in names if name not in source]
         if missing:
             raise LayoutError(f"{where}: field 'calibrations.{missing[0]}' is missing")
