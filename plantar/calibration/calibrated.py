@@ -21,8 +21,10 @@ from plantar.recordings.pressure_recording import layout_for
 _TOP = 0.995  # quantile of a taxel's counts that counts as its largest
 _LIFTED = 0.03  # of a sole's range of summed counts, below which it is in the air
 _FEWEST_LIFTED = 20  # frames
+SURE = 1.96
+"""Standard errors from the middle of a 95 % interval to its end."""
+
 _UNSEEN = 0.7  # of what was taken for granted before: with more of that left, a number was not observed
-_SURE = 1.96  # standard errors of a 95 % interval
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +68,7 @@ class Calibrated:
         """What was found, in lines."""
         lines = []
         for side, known in self.calibrations.items():
-            error = 100.0 * _SURE * known.gain_error
+            error = 100.0 * SURE * known.gain_error
             lines.append(
                 f"{side}: {len(known)} gains within {np.median(error):.1f} % (median) to {error.max():.1f} % at 95 %, "
                 f"crosstalk {100.0 * known.crosstalk:.0f} %"

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.calibration.calibrated import SURE
 from plantar.calibration.take import Take
 from plantar.common.arguments import instance
 from plantar.common.sides import Side
@@ -15,7 +16,7 @@ from plantar.layouts.calibration import SoleCalibration
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import layout_for, true_runs
 
-_SURE = 1.96  # standard errors of a 95 % interval
+
 _STILL = 0.02  # of the weight, by which a body that stands still is off it
 _LIFTED = 0.05  # of the weight, below which a sole is off the ground
 _MOVED = 0.02  # of a taxel's share of the weight: an offset that moved by more is taken again
@@ -97,7 +98,7 @@ def check_calibration(take: Take, layout: SoleLayout) -> CheckedCalibration:
     for side, force in forces.items():
         mean = np.nanmean(force[standing], axis=0)
         variance += (known[side].load_deviation(mean) * float(mean.sum())) ** 2
-    half = _SURE * np.hypot(np.sqrt(variance), _STILL * weight)
+    half = SURE * np.hypot(np.sqrt(variance), _STILL * weight)
     failures = []
     if not abs(measured - weight) <= half:
         share = 100.0 * (measured / weight - 1.0)
