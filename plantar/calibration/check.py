@@ -1,5 +1,6 @@
 """Whether a calibration still holds: ten seconds off the ground and on it; and what hours did to it."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +16,6 @@ from plantar.errors import InputError
 from plantar.layouts.calibration import SoleCalibration
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import layout_for, true_runs
-
 
 _STILL = 0.02  # of the weight, by which a body that stands still is off it
 _LIFTED = 0.05  # of the weight, below which a sole is off the ground
@@ -83,9 +83,9 @@ def check_calibration(take: Take, layout: SoleLayout) -> CheckedCalibration:
         InputError: If a side is not calibrated, or the body never stands.
     """
     instance(layout, SoleLayout, "layout")
-    forces, known = _forces(take, layout)
-    assert isinstance(take.load, np.ndarray)  # of a motion
-    weight = float(np.nanmedian(take.load))
+    soles = _calibrated_soles(take, layout)
+    weight = _weight(take)
+    forces = {side: known.forces(take.counts[side], sole, take.rate) for side, (sole, known) in soles.items()}
     sums = {side: np.nansum(force, axis=1) for side, force in forces.items()}
     total = np.sum(list(sums.values()), axis=0)
     standing = _still(total, take.rate)
@@ -97,7 +97,7 @@ def check_calibration(take: Take, layout: SoleLayout) -> CheckedCalibration:
     variance = 0.0
     for side, force in forces.items():
         mean = np.nanmean(force[standing], axis=0)
-        variance += (known[side].load_deviation(mean) * float(mean.sum())) ** 2
+        variance += (soles[side][1].load_deviation(mean) * float(mean.sum())) ** 2
     half = SURE * np.hypot(np.sqrt(variance), _STILL * weight)
     failures = []
     if not abs(measured - weight) <= half:
@@ -108,11 +108,14 @@ def check_calibration(take: Take, layout: SoleLayout) -> CheckedCalibration:
     moved: dict[Side, float] = {}
     for side, counts in take.counts.items():
         lifted = _still_lifted(sums[side], total, weight, take.rate)
-        gain = known[side].gain
-        shift = (np.nanmean(counts[lifted], axis=0) - known[side].offset) * gain if lifted.any() else np.array([np.nan])
-        moved[side] = float(np.abs(shift).max())
-        if moved[side] > _MOVED * weight / len(gain):
-            worst = int(layout.ids[int(np.abs(shift).argmax())])
+        if not lifted.any():
+            moved[side] = math.nan
+            continue
+        known = soles[side][1]
+        shift = np.abs((np.nanmean(counts[lifted], axis=0) - known.offset) * known.gain)
+        moved[side] = float(shift.max())
+        if moved[side] > _MOVED * weight / len(known):
+            worst = int(layout.ids[int(shift.argmax())])
             failures.append(f"zero of taxel {worst} of the {side} sole moved by {moved[side]:.2f} N: take zero again")
     return CheckedCalibration(weight, measured, (weight - half, weight + half), moved, tuple(failures))
 
@@ -148,14 +151,14 @@ def drift(take: Take, layout: SoleLayout) -> dict[Side, Drift]:
     Raises:
         InputError: If a side is not calibrated.
     """
-    forces, _ = _forces(take, layout, clip=False)
-    assert isinstance(take.load, np.ndarray)  # of a motion
-    weight = float(np.nanmedian(take.load))
+    soles = _calibrated_soles(take, layout)
+    share = _weight(take) / len(soles)
     out: dict[Side, Drift] = {}
-    for side, force in forces.items():
-        total = np.nansum(force, axis=1)
-        phases = _phases(total > 0.5 * weight / len(forces), take)
-        lifted = _phases(total < _LIFTED * weight / len(forces), take)
+    for side, (_, known) in soles.items():
+        # Of a straight response: creep, which the calibration takes off, is what is looked for.
+        total = np.nansum((take.counts[side] - known.offset) * known.gain, axis=1)
+        phases = _phases(total > 0.5 * share, take)
+        lifted = _phases(total < _LIFTED * share, take)
         air = np.array([[np.mean(take.time[a:b]), np.mean(total[a:b])] for a, b in lifted])
         zero = np.interp(take.time, air[:, 0], air[:, 1]) if len(air) else np.zeros(len(total))
         load = total - zero
@@ -183,26 +186,24 @@ def _slope(rows: NDArray[np.float64]) -> float:
     return float(3600.0 * np.polyfit(rows[:, 0] - rows[0, 0], rows[:, 1], 1)[0])
 
 
-def _forces(
-    take: Take, layout: SoleLayout, clip: bool = True
-) -> tuple[dict[Side, NDArray[np.float64]], dict[Side, SoleCalibration]]:
+def _calibrated_soles(take: Take, layout: SoleLayout) -> dict[Side, tuple[SoleLayout, SoleCalibration]]:
+    """Layout and calibration of each sole of a motion; InputError for another take, or where they do not fit it."""
     if take.kind != "motion":
         raise InputError(f"{take.name} is of kind {take.kind}; allowed: motion, of a body that stands on its soles")
-    forces = {}
-    known = {}
+    soles = {}
     for side, counts in take.counts.items():
         sole = layout_for(side, layout)
         if sole is None or sole.calibration is None:
             raise InputError(f"layout '{layout.name}' holds no calibration of the {side} sole; see plantar calibrate")
         if counts.shape[1] != len(sole):
             raise InputError(f"{take.name}: {counts.shape[1]} counts of the {side} sole; allowed: {len(sole)}")
-        known[side] = sole.calibration
-        forces[side] = (
-            sole.calibration.forces(counts, sole, take.rate)
-            if clip
-            else (counts - known[side].offset) * known[side].gain
-        )
-    return forces, known
+        soles[side] = (sole, sole.calibration)
+    return soles
+
+
+def _weight(take: Take) -> float:
+    assert isinstance(take.load, np.ndarray)  # of a motion
+    return float(np.nanmedian(take.load))
 
 
 def _phases(mask: NDArray[np.bool_], take: Take) -> list[tuple[int, int]]:
