@@ -311,7 +311,7 @@ class FootContacts:
             position, yaw = feet.footholds[side]
             support = self._feet[side].support
             places.append((side, float(position[0]), float(position[1]), yaw) if support is None else id(support))
-        if places != self._region_at or not known:
+        if places != self._region_at:
             parts = []
             for side in standing:
                 foot = self._feet[side]
