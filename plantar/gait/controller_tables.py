@@ -34,8 +34,18 @@ _PARTS = _parts()
 CONTROLLER_TABLES: Mapping[str, tuple[type[Part], ...]] = _PARTS[0]
 """Settings classes of each table; `balance` has one for each law."""
 
-_CHOSEN = {"balance": ("law",)}
-"""Keys that choose among a table's classes."""
+_CHOOSING: Mapping[str, tuple[Setting, ...]] = {
+    "balance": (
+        Setting(
+            "law",
+            "the robot's",
+            "",
+            ", ".join(balance_laws()),
+            "Balance law; one that is not the robot's has default gains.",
+        ),
+    )
+}
+"""Settings that choose among a table's classes."""
 
 OPTIONAL_PARTS: frozenset[str] = _PARTS[1]
 """Tables of parts that may be off."""
@@ -50,7 +60,8 @@ def controller_keys(table: str) -> tuple[str, ...]:
     """
     kinds = CONTROLLER_TABLES[table]
     found = (name for kind in kinds for name in kind.names() if name not in kind.given_by)
-    return tuple(dict.fromkeys((*_CHOSEN.get(table, ()), *found)))
+    choosing = (setting.name for setting in _CHOOSING.get(table, ()))
+    return tuple(dict.fromkeys((*choosing, *found)))
 
 
 def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
@@ -58,10 +69,7 @@ def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) 
 
     `body`: scales defaults that are shares into SI.
     """
-    found: dict[str, Setting] = {}
-    if table == "balance":
-        meaning = "Balance law; one that is not the robot's has default gains."
-        found["law"] = Setting("law", "the robot's", "", ", ".join(balance_laws()), meaning)
+    found = {setting.name: setting for setting in _CHOOSING.get(table, ())}
     for kind in CONTROLLER_TABLES[table]:
         for setting in kind.described(body):
             found.setdefault(setting.name, setting)
