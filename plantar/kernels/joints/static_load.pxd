@@ -18,4 +18,6 @@ cdef class StaticLoad:
     cpdef double stand(
         self, tuple levers, left, left_point, left_place, right, right_point, right_place
     ) except? -1.0
+    @cython.locals(pressing=double)
+    cdef double _press(self, PointRows lever, force, point, place) except? -1.0
     cpdef void take(self) noexcept

@@ -78,20 +78,19 @@ class StaticLoad:
         one's likewise. Returns the left sole's share of the vertical force.
         """
         self.weigh()
-        pressing = memory.values(left)[2]
-        if pressing > 0.0:
-            point = memory.values(left_point)
-            self.less(levers[0], left, point[0], point[1], memory.values(left_place)[2])
-        else:
-            pressing = 0.0
-        other = memory.values(right)[2]
-        if other > 0.0:
-            point = memory.values(right_point)
-            self.less(levers[1], right, point[0], point[1], memory.values(right_place)[2])
-        else:
-            other = 0.0
+        pressing = self._press(levers[0], left, left_point, left_place)
+        other = self._press(levers[1], right, right_point, right_place)
         self.take()
         return pressing / (pressing + other) if pressing + other > 0.0 else 0.5
+
+    def _press(self, lever, force, point, place):
+        """Subtract what a sole carries; returns the vertical force in N, 0 where it does not press."""
+        pressing = memory.values(force)[2]
+        if not pressing > 0.0:
+            return 0.0
+        at = memory.values(point)
+        self.less(lever, force, at[0], at[1], memory.values(place)[2])
+        return pressing
 
     def take(self):
         """Write the loads of the joints."""
