@@ -38,15 +38,17 @@ class SwingPath:
         self.duration = duration
         lift, hold, last, self.spare = shares
         self.approach, self.speed = approach
-        slow = self.approach > 0.0
-        if self.approach == 0.0:
-            self.lifted = duration * lift
-            self.arrived = duration * (1.0 - last)
-        else:
+        self.slow = self.approach > 0.0
+        if self.slow:
             self.lifted = duration * min(lift, _HIGH_SHARE)
             self.arrived = duration * _ARRIVED_SHARE
-        self.slow = slow
-        self.first = duration * (_FIRST_SHARE if rises_first else 0.0 if slow else hold)
+            self.first = 0.0
+        else:
+            self.lifted = duration * lift
+            self.arrived = duration * (1.0 - last)
+            self.first = duration * hold
+        if rises_first:
+            self.first = duration * _FIRST_SHARE
 
     def at(self, time):
         """Sole's position (3,) in m and heading in rad at a time in s since lift-off."""
@@ -64,9 +66,9 @@ class SwingPath:
         end = self.to_z
         lifted = self.lifted
         if time < lifted:
-            rising = lifted if self.approach == 0.0 else min(lifted, _RISE_SHARE * self.duration)
+            rising = min(lifted, _RISE_SHARE * self.duration) if self.slow else lifted
             return self.z + _eased(time / rising) * (top - self.z)
-        if self.approach == 0.0:
+        if not self.slow:
             return top + _eased((time - lifted) / ((1.0 - self.spare) * self.duration - lifted)) * (end - top)
         lasting = _APPROACH_SHARE * self.duration
         speed = max(self.speed, self.approach / lasting)
