@@ -413,7 +413,7 @@ class SkinView:
     def reading(self, foot: FootContacts, time: float) -> SkinReading:
         """The reading of the skin's contacts now."""
         load = self.press(foot)
-        near = self._skin.distances(self) if self.looks else None
+        near = None if self._skin.proximity_range is None else self._skin.distances(self)
         block = load.block.copy()
         force = block[: self._count]
         slip = self._slip(foot) if self._skin.slip else None

@@ -359,6 +359,7 @@ def test_slip_is_the_velocity_along_what_a_taxel_touches(kind, way):
     assert np.linalg.norm(reading.slip[loaded], axis=1).max() > 0.3
     assert not np.delete(reading.slip, loaded, axis=0)[reading.force[np.setdiff1d(range(len(feel)), loaded)] == 0].any()
     assert Skin(body="foot", **way).bind(model)(data).slip is None
+    assert reading.proximity is None
     data.qpos[model.jnt_qposadr[model.body_jntadr[foot]] + 2] += 1.0
     mujoco.mj_forward(model, data)
     assert not feel(data).slip.any()
