@@ -21,7 +21,7 @@ from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.contacts import ContactReader
-from plantar.mujoco.layer import ElasticLayer
+from plantar.mujoco.layer import ElasticLayer, SharedLoad
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.link_skin import SkinPatch
@@ -29,7 +29,6 @@ from plantar.sensing.reading import Reading
 from plantar.sensing.taxel_faults import TaxelFaults
 
 _LIFT = 0.02  # m inside the body at which proximity rays begin
-_EXACT = 1e-9  # of the load times the extent: how exactly the taxels under a layer have the moment
 _PASSED = 20  # surfaces of its own that a ray passes at most
 LoadMaker = Callable[[], PatchLoad]
 """Makes the kernel of a patch that wraps."""
@@ -96,7 +95,7 @@ class BoundSkin:
         reach: Gap in m up to which an unloaded contact counts as near.
         proximity_range: Of proximity sensors in m; None for none.
         slip: Whether taxels' sliding is read.
-        layer: Elastic layer over the cells, or None.
+        layer: Elastic layer over the cells, or None; `shared`: how the cells share a load by it.
         faults: Of its taxels, or None; `seed` of their draws.
         static: Taxels' places, axes, areas, widths, and hull of places, as in `TaxelLoad`.
     """
@@ -149,6 +148,7 @@ class BoundSkin:
             np.array(widths),
             np.ascontiguousarray(convex_hull(layout.positions[:, :2])),
         )
+        self.shared = None if layer is None else SharedLoad(layer, layout)
         self._views: dict[int, SkinView] = {}
         self._most = MOST_DATA
 
@@ -332,13 +332,6 @@ class SkinView:
         self._still = np.zeros(len(self._load.block))
         self._count = len(skin)
         self._no_force = self._still[: self._count]
-        places, _, areas, _, _ = skin.static
-        self._shares = None
-        if skin.layer is not None:
-            self._shares = skin.layer.shares(skin.layout)
-            self._yields = 1.0 / (skin.layer.stiffness * areas)
-            self._arms = np.ascontiguousarray(np.cross(places[:, None], np.eye(3)).reshape(-1, 3).T)
-            self._extent = float(np.abs(places).max())
         self._worn = None if skin.faults is None else skin.faults.worn(skin.layout, skin.seed)
         self._read_at = -math.inf
         self.carried = True
@@ -364,20 +357,9 @@ class SkinView:
             load.vectors[:] = math.nan
             load.forces[:] = math.nan
         self.carried = load.carried
-        if self._shares is not None and foot.size:
-            self._yield(load, self._shares)
+        if self._skin.shared is not None and foot.size:
+            self.carried = self._skin.shared.take(load) and load.carried
         return load
-
-    def _yield(self, load: Any, shares: NDArray[np.float64]) -> None:
-        """Share the load as the elastic layer does, and set depths to how far it yields."""
-        shared = np.dot(shares, load.vectors)
-        load.vectors[:] = shared
-        load.forces[:] = np.einsum("ij,ij->i", shared, self._skin.static[1])
-        np.multiply(load.forces, self._yields, out=load.depths)
-        np.maximum(load.depths, 0.0, out=load.depths)
-        off = np.dot(self._arms, shared.ravel()) - load.wrench[3:]
-        size = float(np.abs(shared).sum()) * self._extent
-        self.carried = load.carried and max(abs(x) for x in off.tolist()) <= _EXACT * size
 
     def _slip(self, foot: FootContacts) -> NDArray[np.float64]:
         """Velocity (n, 3) of each loaded taxel along what touches nearest to it, sole frame, in m/s."""

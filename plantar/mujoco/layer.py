@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.link_skin import SkinPatch
 
+_EXACT = 1e-9  # of the load times the extent: how exactly the cells have the moment
 _SQUARE = 4  # neighbours of a cell in a square lattice, at most; hexagons and cells of a surface have six on average
 
 
@@ -82,3 +84,32 @@ class ElasticLayer:
                 system[j, i] -= 0.5 * pull
         found = np.asarray(layout.areas[:, None] * np.linalg.inv(system))
         return found.reshape(count, count)
+
+
+class SharedLoad:
+    """How the cells of a `layout` share a load by a `layer` over them.
+
+    `shares` (n, n): as `ElasticLayer.shares`.
+    """
+
+    def __init__(self, layer: ElasticLayer, layout: SoleLayout | SkinPatch) -> None:
+        places = layout.positions
+        self.shares = layer.shares(layout)
+        self._axes = np.ascontiguousarray(layout.rotations[:, :, 2])
+        self._yields = 1.0 / (layer.stiffness * layout.areas)
+        self._arms = np.ascontiguousarray(np.cross(places[:, None], np.eye(3)).reshape(-1, 3).T)
+        self._extent = float(np.abs(places).max())
+
+    def take(self, load: Any) -> bool:
+        """Share a `TaxelLoad` or `PatchLoad` in place, and set its depths to how far the layer yields.
+
+        Returns whether the cells still have the moment of its wrench.
+        """
+        shared = np.dot(self.shares, load.vectors)
+        load.vectors[:] = shared
+        load.forces[:] = np.einsum("ij,ij->i", shared, self._axes)
+        np.multiply(load.forces, self._yields, out=load.depths)
+        np.maximum(load.depths, 0.0, out=load.depths)
+        off = np.dot(self._arms, shared.ravel()) - load.wrench[3:]
+        size = float(np.abs(shared).sum()) * self._extent
+        return bool(max(abs(x) for x in off.tolist()) <= _EXACT * size)

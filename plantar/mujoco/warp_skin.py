@@ -44,8 +44,8 @@ class WarpSkin:
             raise InputError("the skin is a patch that wraps, which MuJoCo Warp's form does not read; allowed: a sole")
         self._worlds = integer(worlds, "worlds", 1)
         self._shares = None
-        if skin.layer is not None:
-            self._shares = wp.array(skin.layer.shares(skin.layout), dtype=wp.float64)
+        if skin.shared is not None:
+            self._shares = wp.array(skin.shared.shares, dtype=wp.float64)
         self._worn = None if skin.faults is None else skin.faults.worn(skin.layout, skin.seed, (self._worlds,))
         room = integer(contacts, "contacts", 1)
         self._elliptic = bool(skin.model.opt.cone) if elliptic is None else elliptic
