@@ -15,7 +15,6 @@ from plantar.common.arguments import integer, items
 from plantar.common.arrays import array
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels.base import vectors
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.kernels.contacts.taxel_load import TaxelLoad
@@ -411,9 +410,6 @@ class SkinView:
         return _made(time, self._no_force, self._still, None, True, None)
 
 
-_NEW = SkinReading.__new__
-
-
 def _turning(spin: NDArray[np.float64]) -> NDArray[np.float64]:
     """Matrix (3, 3) that a place (3,) is multiplied with, from the left, for its velocity."""
     x, y, z = spin.tolist()
@@ -441,11 +437,7 @@ def _made(
     slip: NDArray[np.float64] | None,
 ) -> SkinReading:
     """A reading of a kernel's `block`, made for it: forces, depths, vectors and wrench one after the other."""
-    vectors.close(force)
-    if proximity is not None:
-        vectors.close(proximity)
-    reading = _NEW(SkinReading)
-    reading._keep(time, force, proximity, None, None)
+    reading = SkinReading.taken_over(time, force, proximity)
     fields = reading.__dict__
     fields["_block"] = block
     fields["carried"] = carried
