@@ -46,6 +46,8 @@ class Skins:
         self.model = self.skins[0].model
         if any(skin.model is not self.model for skin in self.skins):
             raise InputError("the skins are bound to several models; allowed: skins of one")
+        links = [self.model.body(skin.body).name for skin in self.skins]
+        self._by_link = sorted(range(len(links)), key=links.__getitem__)
         self._views: dict[int, _Views] = {}
         self._most = MOST_DATA
 
@@ -78,10 +80,10 @@ class Skins:
     def whole(self, data: Any) -> Reading:
         """One reading of all taxels, in the order of `body_skin`."""
         readings = self(data)
-        links = [self.model.body(skin.body).name for skin in self.skins]
-        order = sorted(range(len(links)), key=links.__getitem__)
-        force = np.concatenate([readings[i].force for i in order])
-        return Reading(float(data.time), force, np.concatenate([readings[i].distance for i in order]))
+        ordered = [readings[i] for i in self._by_link]
+        force = np.concatenate([reading.force for reading in ordered])
+        distance = np.concatenate([reading.distance for reading in ordered])
+        return Reading.taken_over(float(data.time), force, distance)
 
     def many(self, datas: Sequence[Any], threads: int = 1) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Read the skins in many simulations.
