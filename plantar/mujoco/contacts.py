@@ -35,11 +35,6 @@ class ContactReader:
         if getattr(self._model, "flg_adhesion", False):  # of geoms, since MuJoCo 4
             self.read = self._read_sticking
 
-    @property
-    def count(self) -> int:
-        """Contacts of all bodies at the last `read`."""
-        return int(self._kernel.count)
-
     def _listed(self) -> ContactList:
         c = self._data.contact
         friction = c.friction if self._model.opt.cone != _ELLIPTIC else None
