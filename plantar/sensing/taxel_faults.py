@@ -97,19 +97,18 @@ class TaxelFaults:
         gains = 1.0 + np.clip(self.gain * rng.standard_normal(shape), -_GAIN_MOST, _GAIN_MOST)
         offsets = self.offset * rng.standard_normal(shape)
         drifts = self.drift * rng.standard_normal(shape)
-        dead = rng.permuted(np.broadcast_to(np.arange(len(layout)), shape), axis=-1) < round(self.dead * len(layout))
+        dead = _drawn(rng, shape, self.dead)
         warm = np.zeros(shape)
         if self.temperature:
             warm = np.clip(self.temperature * rng.standard_normal(shape), -_GAIN_MOST, _GAIN_MOST)
         if self.rows:
             row = _rows(layout)
-            lost = rng.permuted(np.broadcast_to(np.arange(row.max() + 1), (*batch, row.max() + 1)), axis=-1)
-            dead = dead | (lost < round(self.rows * (row.max() + 1)))[..., row]
+            dead = dead | _drawn(rng, (*batch, row.max() + 1), self.rows)[..., row]
         return WornFaults(layout, self, gains, offsets, drifts, dead, rng, warm)
 
 
 class WornFaults:
-    """Faults of a sole's taxels, with the state of hysteresis and delay.
+    """Faults of a sole's taxels, with the state of hysteresis, creep and delay.
 
     `faults`: what is the same for all taxels; `gains`: gain (..., n) of each taxel; `offsets` its zero in N, `drifts`
     the final drift of that; `dead`: whether each taxel (..., n) is dead; `rng`: source of noise; None without noise
@@ -207,6 +206,13 @@ class WornFaults:
             return first
         share = (due - before) / (after - before)
         return np.asarray(first + share * (second - first))
+
+
+def _drawn(rng: np.random.Generator, shape: tuple[int, ...], share: float) -> NDArray[np.bool_]:
+    """Mask of a shape (..., n): of each n, a share that is drawn."""
+    count = shape[-1]
+    order = rng.permuted(np.broadcast_to(np.arange(count), shape), axis=-1)
+    return np.asarray(order < round(share * count))
 
 
 def _rows(layout: SoleLayout | SkinPatch) -> NDArray[np.int64]:
