@@ -7,30 +7,21 @@ CRC-16/CCITT-FALSE of all before it. Values are counts until the layout's calibr
 import binascii
 import struct
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 
 import numpy as np
 
 from plantar.common.sides import SIDES, Side
 from plantar.layouts.layout import SoleLayout
 from plantar.live.arrival import Arrival, Fault
-from plantar.live.line_reading import soles_of
-from plantar.live.serial_port import device_and_rate, opened_port, port_arrivals
-from plantar.live.source import LiveSource, LiveStream
+from plantar.live.serial_port import port_stream
+from plantar.live.source import LiveSource
 from plantar.sensing.reading import Reading
 
 _HEAD = struct.Struct("<2sBBHIH")
 _START = b"PL\x01"
 _WRAP = 1 << 32  # us
 _MOST = 16 * 32  # taxels: rows and columns that one firmware reads
-
-
-def _open(address: str, layout: SoleLayout | None) -> LiveStream:
-    path, baud = device_and_rate(address, "packets")
-    soles = soles_of(layout, address)
-    port = opened_port(path, baud)
-    arrivals = port_arrivals(path, baud, port, lambda chunks: packets_of(chunks, soles))
-    next(arrivals)
-    return LiveStream(soles, arrivals)
 
 
 def packets_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Iterator[Arrival]:
@@ -121,4 +112,8 @@ class _Clock:
         return 1e-6 * (self._time + self._turns * _WRAP)
 
 
-SOURCE = LiveSource("packets", "Packets of a sole's firmware on a serial port: packets:DEVICE@BAUD", _open)
+SOURCE = LiveSource(
+    "packets",
+    "Packets of a sole's firmware on a serial port: packets:DEVICE@BAUD",
+    partial(port_stream, "packets", packets_of),
+)

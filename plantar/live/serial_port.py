@@ -3,11 +3,13 @@
 import os
 import select
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
+from functools import partial
 from importlib import import_module
 from typing import Any
 
+from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.live.arrival import Arrival, Fault
@@ -18,24 +20,29 @@ _BAUD = 115200
 _MOST = 1 << 16  # bytes at a time
 
 
-def _open(address: str, layout: SoleLayout | None) -> LiveStream:
-    path, baud = device_and_rate(address, "serial")
+Parse = Callable[[Iterable[bytes], Mapping[Side, SoleLayout]], Iterator[Arrival]]
+"""Makes readings of some soles of chunks of bytes."""
+
+
+def port_stream(source: str, parse: Parse, address: str, layout: SoleLayout | None) -> LiveStream:
+    """Stream of a named `source` whose bytes come on the serial port at an `address`, DEVICE or DEVICE@BAUD."""
+    path, baud = _device_and_rate(address, source)
     soles = soles_of(layout, address)
-    port = opened_port(path, baud)
-    arrivals = port_arrivals(path, baud, port, lambda chunks: arrivals_of(chunks, soles))
+    port = _opened_port(path, baud)
+    arrivals = _port_arrivals(path, baud, port, lambda chunks: parse(chunks, soles))
     next(arrivals)
     return LiveStream(soles, arrivals)
 
 
-def device_and_rate(address: str, source: str) -> tuple[str, int]:
-    """Returns device and baud of an `address` of a named `source`; InputError if it is none."""
+def _device_and_rate(address: str, source: str) -> tuple[str, int]:
+    """Device and baud of an `address` of a named `source`; InputError if it is none."""
     path, _, rate = address.partition("@")
     if not path or not (rate.isdecimal() or not rate):
         raise InputError(f"serial port {address!r}; allowed: {source}:DEVICE, or {source}:DEVICE@{_BAUD}")
     return path, int(rate or _BAUD)
 
 
-def opened_port(path: str, baud: int) -> int:
+def _opened_port(path: str, baud: int) -> int:
     """File descriptor of a port that passes bytes on as they are; InputError for a rate that it does not have."""
     try:
         termios: Any = import_module("termios")
@@ -60,7 +67,9 @@ def opened_port(path: str, baud: int) -> int:
     return port
 
 
-def port_arrivals(path: str, baud: int, port: int, arrivals: Any) -> Iterator[Arrival]:
+def _port_arrivals(
+    path: str, baud: int, port: int, arrivals: Callable[[Iterable[bytes]], Iterator[Arrival]]
+) -> Iterator[Arrival]:
     """Yields what `arrivals` makes of the bytes of an opened port, opened again when it is lost; first None."""
     try:
         yield None  # begun here, so that closing it closes the port
@@ -79,7 +88,7 @@ def port_arrivals(path: str, baud: int, port: int, arrivals: Any) -> Iterator[Ar
             time.sleep(QUIET)
             yield None
             with suppress(OSError, InputError):
-                found = opened_port(path, baud)
+                found = _opened_port(path, baud)
         port = found
 
 
@@ -98,4 +107,8 @@ def _chunks(port: int) -> Iterator[bytes]:
         os.close(port)
 
 
-SOURCE = LiveSource("serial", f"Lines on a serial port: serial:DEVICE@BAUD, {_BAUD} baud if not given", _open)
+SOURCE = LiveSource(
+    "serial",
+    f"Lines on a serial port: serial:DEVICE@BAUD, {_BAUD} baud if not given",
+    partial(port_stream, "serial", arrivals_of),
+)
