@@ -53,21 +53,18 @@ def packets_of(chunks: Iterable[bytes], soles: Mapping[Side, SoleLayout]) -> Ite
             side = SIDES[number % len(SIDES)]
             size = _HEAD.size + 2 * count
             ours = number < len(SIDES) and side in soles and count == len(soles[side])
-            if len(rest) < size + 2 and (ours or count <= _MOST):
+            possible = ours or count <= _MOST
+            if possible and len(rest) < size + 2:
                 break
-            if not ours:
-                # by its check sum a packet of another sole, else bytes that look like the beginning of one
-                known = count <= _MOST and _checked(rest, size)
-                if known:
-                    wanted = ", ".join(f"{len(sole)} of the {one} sole" for one, sole in soles.items())
-                    yield Fault("garbled", f"a packet holds {count} values of side {number}; allowed: {wanted}")
-                step = size + 2 if known else 1
-                skipped += 0 if known else 1
-                rest = rest[step:]
-                continue
-            if not _checked(rest, size):
+            if not possible or not _checked(rest, size):
+                # Bytes that look like the beginning of a packet, or one that changed on its way.
                 skipped += 1
                 rest = rest[1:]
+                continue
+            if not ours:
+                wanted = ", ".join(f"{len(sole)} of the {one} sole" for one, sole in soles.items())
+                yield Fault("garbled", f"a packet holds {count} values of side {number}; allowed: {wanted}")
+                rest = rest[size + 2 :]
                 continue
             if skipped:
                 yield Fault("garbled", f"{skipped} bytes are no packet, or one with a wrong check sum")
