@@ -5,9 +5,7 @@ which neither the stream nor the buttons answer, and a request has to name the a
 origin can do neither.
 """
 
-import html
 import json
-import re
 import secrets
 import threading
 from collections.abc import Mapping
@@ -16,11 +14,10 @@ from queue import Empty, SimpleQueue
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-from plantar.common.pages.page import with_policy
 from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
-from plantar.viewer.page import asset
+from plantar.viewer.page import asset, framed
 
 ACTIONS = ("zero", "mark", "record")
 """What the page's buttons ask for."""
@@ -124,14 +121,10 @@ def _page(soles: Mapping[Side, SoleLayout], title: str, token: str) -> bytes:
             for side, layout in soles.items()
         },
     }
-    parts = {
-        "TITLE": html.escape(title),
-        "STYLE": asset("view.css") + asset("live.css"),
-        "DATA": json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
-        "SCRIPT": asset("soles.js") + asset("live.js"),
-    }
-    text = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("live.html"))
-    return with_policy(text).replace("connect-src 'none'", "connect-src 'self'", 1).encode()
+    style = asset("view.css") + asset("live.css")
+    script = asset("soles.js") + asset("live.js")
+    text = framed(title, style, asset("live.html"), script, json.dumps(data, separators=(",", ":")))
+    return text.replace("connect-src 'none'", "connect-src 'self'", 1).encode()
 
 
 def _handler(page: LivePage) -> type[BaseHTTPRequestHandler]:

@@ -70,21 +70,34 @@ def view_text(written: Mapping[str, Any]) -> str:
 
 
 def _pieces(walks: Sequence[Walk]) -> Iterator[str]:
-    parts = {
-        "TITLE": html.escape(" and ".join(walk.name for walk in walks)),
-        "STYLE": asset("view.css"),
-        "VIEWS": "\n".join(_view(number, walk, len(walks) == 1) for number, walk in enumerate(walks)),
-        "DATA": "{{DATA}}",
-        "SCRIPT": _three() + asset("soles.js") + asset("view.js"),
-    }
-    text = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("view.html"))
-    before, _, after = with_policy(text).rpartition("{{DATA}}")
+    title = " and ".join(walk.name for walk in walks)
+    views = "\n".join(_view(number, walk, len(walks) == 1) for number, walk in enumerate(walks))
+    script = _three() + asset("soles.js") + asset("view.js")
+    text = framed(title, asset("view.css"), asset("view.html").replace("{{VIEWS}}", views), script, "{{DATA}}")
+    before, _, after = text.rpartition("{{DATA}}")
     yield before
     for number, walk in enumerate(walks):
         yield "[" if number == 0 else ","
         for piece in json.JSONEncoder(separators=(",", ":"), allow_nan=False).iterencode(_walk(walk)):
-            yield piece.replace("<", "\\u003c")
+            yield _within_html(piece)
     yield "]" + after
+
+
+def framed(title: str, style: str, main: str, script: str, data: str) -> str:
+    """A page of the viewer: plain `title`, CSS, HTML below the title, script, and the JSON `data` that it reads."""
+    parts = {
+        "TITLE": html.escape(title),
+        "STYLE": style,
+        "MAIN": main,
+        "DATA": _within_html(data),
+        "SCRIPT": script,
+    }
+    return with_policy(re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("frame.html")))
+
+
+def _within_html(data: str) -> str:
+    """JSON text without what could end the element around it."""
+    return data.replace("<", "\\u003c")
 
 
 def asset(name: str) -> str:
