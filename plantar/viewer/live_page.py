@@ -61,10 +61,9 @@ class LivePage:
         self._actions: SimpleQueue[str] = SimpleQueue()
         self._page = _page(soles, title, self._token)
         try:
-            self._server = ThreadingHTTPServer((host, port), _handler(self))
+            self._server = _Server((host, port), self)
         except (OSError, OverflowError) as error:
             raise InputError(f"no page can be served at {host}:{port}: {error}") from None
-        self._server.daemon_threads = True
         self._hosts = {f"{name}:{self._server.server_port}" for name in ("127.0.0.1", "localhost", host)}
         self._everywhere = host in ("0.0.0.0", "::")
         self.url = f"http://{'127.0.0.1' if self._everywhere else host}:{self._server.server_port}/"
@@ -127,83 +126,93 @@ def _page(soles: Mapping[Side, SoleLayout], title: str, token: str) -> bytes:
     return text.replace("connect-src 'none'", "connect-src 'self'", 1).encode()
 
 
-def _handler(page: LivePage) -> type[BaseHTTPRequestHandler]:
-    class Handler(BaseHTTPRequestHandler):
-        timeout = _PATIENCE
-        protocol_version = "HTTP/1.1"
+class _Server(ThreadingHTTPServer):
+    """The server of one page."""
 
-        def log_message(self, *_: object) -> None:
-            """Requests are not printed."""
+    daemon_threads = True
 
-        def do_GET(self) -> None:
-            place = urlsplit(self.path)
-            if not self._addressed():
-                self._answer(403)
-            elif place.path == "/":
-                self._answer(200, page._page, "text/html; charset=utf-8")
-            elif place.path == "/stream" and self._knows(parse_qs(place.query).get("token", [""])[0]):
-                self._stream()
-            else:
-                self._answer(404)
+    def __init__(self, address: tuple[str, int], page: LivePage) -> None:
+        self.page = page
+        super().__init__(address, _Handler)
 
-        def do_POST(self) -> None:
-            size = self.headers.get("Content-Length", "")
-            if not (self._addressed() and self.path == "/do" and self._knows(self.headers.get("X-Plantar", ""))):
-                self._answer(403)
-                return
-            if not (size.isdigit() and int(size) <= _MOST_BYTES):
-                self._answer(413)
-                return
-            try:
-                asked = json.loads(self.rfile.read(int(size)))["do"]
-            except (ValueError, TypeError, KeyError, RecursionError):
-                asked = None
-            if asked not in ACTIONS:
-                self._answer(400)
-                return
-            page._actions.put(asked)
-            self._answer(204)
 
-        def _addressed(self) -> bool:
-            """Whether the request names the address that is served: a page of another name is kept out."""
-            return page._everywhere or self.headers.get("Host", "") in page._hosts
+class _Handler(BaseHTTPRequestHandler):
+    """One request."""
 
-        def _knows(self, token: str) -> bool:
-            return secrets.compare_digest(token.encode(), page._token.encode())
+    server: _Server
+    timeout = _PATIENCE
+    protocol_version = "HTTP/1.1"
 
-        def _answer(self, code: int, body: bytes = b"", kind: str = "text/plain") -> None:
-            self.send_response(code)
-            self.send_header("Content-Type", kind)
-            self.send_header("Content-Length", str(len(body)))
+    def log_message(self, *_: object) -> None:
+        """Requests are not printed."""
+
+    def do_GET(self) -> None:
+        place = urlsplit(self.path)
+        if not self._addressed():
+            self._answer(403)
+        elif place.path == "/":
+            self._answer(200, self.server.page._page, "text/html; charset=utf-8")
+        elif place.path == "/stream" and self._knows(parse_qs(place.query).get("token", [""])[0]):
+            self._stream()
+        else:
+            self._answer(404)
+
+    def do_POST(self) -> None:
+        size = self.headers.get("Content-Length", "")
+        if not (self._addressed() and self.path == "/do" and self._knows(self.headers.get("X-Plantar", ""))):
+            self._answer(403)
+            return
+        if not (size.isdigit() and int(size) <= _MOST_BYTES):
+            self._answer(413)
+            return
+        try:
+            asked = json.loads(self.rfile.read(int(size)))["do"]
+        except (ValueError, TypeError, KeyError, RecursionError):
+            asked = None
+        if asked not in ACTIONS:
+            self._answer(400)
+            return
+        self.server.page._actions.put(asked)
+        self._answer(204)
+
+    def _addressed(self) -> bool:
+        """Whether the request names the address that is served: a page of another name is kept out."""
+        return self.server.page._everywhere or self.headers.get("Host", "") in self.server.page._hosts
+
+    def _knows(self, token: str) -> bool:
+        return secrets.compare_digest(token.encode(), self.server.page._token.encode())
+
+    def _answer(self, code: int, body: bytes = b"", kind: str = "text/plain") -> None:
+        self.send_response(code)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        self.send_header("Cache-Control", "no-store")
+        self.send_header("X-Content-Type-Options", "nosniff")
+        self.send_header("X-Frame-Options", "DENY")
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(body)
+        self.close_connection = True
+
+    def _stream(self) -> None:
+        if not self.server.page._viewers.acquire(blocking=False):
+            self._answer(503)
+            return
+        try:
+            self.send_response(200)
+            self.send_header("Content-Type", "text/event-stream")
             self.send_header("Cache-Control", "no-store")
-            self.send_header("X-Content-Type-Options", "nosniff")
-            self.send_header("X-Frame-Options", "DENY")
-            self.send_header("Connection", "close")
             self.end_headers()
-            self.wfile.write(body)
             self.close_connection = True
-
-        def _stream(self) -> None:
-            if not page._viewers.acquire(blocking=False):
-                self._answer(503)
-                return
-            try:
-                self.send_response(200)
-                self.send_header("Content-Type", "text/event-stream")
-                self.send_header("Cache-Control", "no-store")
-                self.end_headers()
-                self.close_connection = True
-                known = 0
-                while True:
-                    number, text = page._latest(known)
-                    if number < 0:
-                        return
-                    self.wfile.write(b":\n\n" if number == known else b"data: " + text + b"\n\n")
-                    self.wfile.flush()
-                    known = number
-            except OSError:
-                return  # the viewer went away
-            finally:
-                page._viewers.release()
-
-    return Handler
+            known = 0
+            while True:
+                number, text = self.server.page._latest(known)
+                if number < 0:
+                    return
+                self.wfile.write(b":\n\n" if number == known else b"data: " + text + b"\n\n")
+                self.wfile.flush()
+                known = number
+        except OSError:
+            return  # the viewer went away
+        finally:
+            self.server.page._viewers.release()
