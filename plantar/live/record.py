@@ -20,7 +20,9 @@ from plantar.sensing.reading import Reading
 Show = Callable[[float, str], object]
 """Receives the share of the recording's time that has passed, and a line."""
 
-_SHOWN = 0.2  # s between two lines of what comes
+SHOWN = 0.2
+"""Time in s between two lines of what comes."""
+
 _GAP = 2.5  # mean steps, above which a step does not count for the rate
 _FIRST = 5  # steps that do
 
@@ -40,8 +42,6 @@ def record(
     Returns `seconds` recorded; the `frames`, `rate_hz` and largest gap `gap_max_s` of each of the `feet`; the number of
     each kind of `faults`; and the difference of `clocks`, None if unknown. InputError if no reading came.
     """
-    if not seconds > 0.0:
-        raise InputError(f"cannot record {seconds} s; allowed: above 0")
     stopped = False
     with LiveRecording(stream, path, seconds, sinks) as recording:
         try:
@@ -61,20 +61,23 @@ def _follow(stream: CheckedStream, recording: "LiveRecording", show: Show | None
     for item in stream.items:
         if not recording.put(item):
             return
-        if show is not None and (isinstance(item, Silence) or recording.latest >= shown + _SHOWN):
-            show(min(1.0, recording.latest / recording.seconds), recording.text(item))
+        if show is not None and (isinstance(item, Silence) or recording.latest >= shown + SHOWN):
+            show(recording.share, recording.text(item))
             shown = recording.latest
 
 
 class LiveRecording:
     """A recording of a stream up to a time of `seconds`, begun by its first reading; a context manager.
 
-    Attributes: `begun`: whether a reading has come; `latest`: time in s that is recorded.
+    Attributes: `begun`: whether a reading has come; `latest`: time in s that is recorded. InputError if `seconds` is
+    not above 0.
     """
 
     def __init__(
         self, stream: CheckedStream, path: str | os.PathLike[str], seconds: float, sinks: Sequence[Send] = ()
     ) -> None:
+        if not seconds > 0.0:
+            raise InputError(f"cannot record {seconds} s; allowed: above 0")
         self.seconds = seconds
         self.begun = False
         self.latest = 0.0
@@ -97,6 +100,11 @@ class LiveRecording:
                 self.put(item)
             if self.begun:
                 self._recorder.note(live=self._about())
+
+    @property
+    def share(self) -> float:
+        """Share of its time that is recorded."""
+        return min(1.0, self.latest / self.seconds)
 
     def put(self, item: LiveItem) -> bool:
         """Record an item, and send readings on; returns whether the recording goes on."""

@@ -13,7 +13,7 @@ from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.live.arrival import LiveEvent, LiveItem, LiveReading, Silence
 from plantar.live.checked_stream import CheckedStream
-from plantar.live.record import LiveRecording, Show
+from plantar.live.record import SHOWN, LiveRecording, Show
 from plantar.live.sink import Send
 from plantar.sensing.reading import Reading
 from plantar.viewer.live_page import LivePage
@@ -21,7 +21,6 @@ from plantar.viewer.live_state import LiveState
 
 _PICTURES = 1.0 / 60.0  # s between two states: a screen's
 _ZEROED = 0.5  # s of readings that a zero is the mean of
-_SHOWN = 0.2  # s between two lines of the command
 
 
 def record_with_page(
@@ -51,8 +50,6 @@ def record_with_page(
     Raises:
         InputError: If no reading was recorded.
     """
-    if not seconds > 0.0:
-        raise InputError(f"cannot record {seconds} s; allowed: above 0")
     with LiveRecording(stream, path, seconds, sinks) as recording:
         session = _Session(stream, page, recording, show)
         try:
@@ -100,10 +97,9 @@ class _Session:
         if now - self._sent >= _PICTURES or isinstance(item, Silence):
             self._sent = now
             self.show(item)
-        if self._show is not None and now - self._shown >= _SHOWN:
+        if self._show is not None and now - self._shown >= SHOWN:
             self._shown = now
-            share = min(1.0, self._recording.latest / self._recording.seconds)
-            self._show(share, self._recording.text(item))
+            self._show(self._recording.share, self._recording.text(item))
         return goes_on
 
     def show(self, item: LiveItem | None = None) -> None:
