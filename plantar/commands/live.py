@@ -19,10 +19,7 @@ def live(
     send: Annotated[
         list[str] | None, Option(metavar="SINK", help="Where readings go on to, such as udp:9871; repeatable.")
     ] = None,
-    counts: Annotated[
-        bool,
-        Option("--counts", help="Values are counts, for the layout's calibration."),
-    ] = False,
+    counts: Annotated[bool, Option("--counts", help="Values are counts, for the layout's calibration.")] = False,
     correct_clocks: Annotated[bool, Option("--correct-clocks", help="Put both soles on the left one's clock.")] = False,
     strict: Annotated[bool, Option("--strict", help="End with exit 2 at what is not a reading in order.")] = False,
     page: Annotated[bool, Option("--page", help="Show it in the browser as it comes, on this machine.")] = False,
@@ -59,9 +56,10 @@ def live(
     stream = open_live(source, sole, strict=strict, correct=correct_clocks, kind=kind, counts=counts)
     with parent_folder(output), progress_bar() as progress:
         if page:
-            found = _with_page(stream, source, page_address, output, seconds, progress, sinks)
+            made = _with_page(stream, source, page_address, output, seconds, progress, sinks)
         else:
-            found = {"file": str(output), **record(stream, output, seconds, progress, sinks)}
+            made = record(stream, output, seconds, progress, sinks)
+    found = {"file": str(output), **made}
     lines = [f"{found['seconds']:.1f} s recorded", *_feet_lines(found), *_fault_lines(found), f"  {output}"]
     end_command(found, as_json, "\n".join(lines))
 
@@ -76,7 +74,7 @@ def _with_page(
     host, port = ("127.0.0.1", 0) if address is None else host_and_port(address, "page")
     with LivePage(stream.soles, f"Live: {source}", host, port) as shown:
         print_note(f"page: {shown.url}")
-        return {"file": str(output), **record_with_page(stream, shown, output, seconds, progress, sinks)}
+        return record_with_page(stream, shown, output, seconds, progress, sinks)
 
 
 def _feet_lines(found: Mapping[str, Any]) -> list[str]:
