@@ -10,6 +10,7 @@ pressure and of a step's impulse are those on another motion than the calibratio
 import sys
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -110,7 +111,8 @@ def scores(
 
 def bound(calibrated: Scene) -> tuple[float, float]:
     """Least standard deviation of gains by the noise, all else known (Cramer-Rao): median; and of the CoP in mm."""
-    motion, keep = calibrated.motion, np.exp(-1.0 / (RATE * KEPT))
+    motion = calibrated.motion
+    keep = np.exp(-1.0 / (RATE * KEPT))
     n = len(LAYOUTS["left"])
     information = np.eye(2 * n) / 0.25**2
     for i, side in enumerate(SIDES):
@@ -133,8 +135,7 @@ def bound(calibrated: Scene) -> tuple[float, float]:
     squares = []
     for i, side in enumerate(SIDES):
         at = slice(i * n, (i + 1) * n)
-        known = SoleCalibration.linear(np.ones(n), np.zeros(n))
-        object.__setattr__(known, "covariance", covariance[at, at])
+        known = replace(SoleCalibration.linear(np.ones(n), np.zeros(n)), covariance=covariance[at, at])
         on = np.flatnonzero(motion.load[side] > 0.1 * WEIGHT)[::10]
         squares += [np.sum(known.cop_deviation(LAYOUTS[side], calibrated.forces[side][k]) ** 2) for k in on]
     return float(np.median(np.sqrt(np.diag(covariance)))), 1e3 * float(np.sqrt(np.mean(squares)))
@@ -146,7 +147,8 @@ def main(draws: int, ways: list[str]) -> None:
     bounds = []
     for seed in range(draws):
         if seed % EACH == 0:
-            calibrated, held_out = scene(10_000 + seed), scene(20_000 + seed)
+            calibrated = scene(10_000 + seed)
+            held_out = scene(20_000 + seed)
             bounds.append(bound(calibrated))
         rng = np.random.default_rng(seed)
         faults = {side: Faults.drawn(rng, LAYOUTS[side]) for side in SIDES}

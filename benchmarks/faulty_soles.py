@@ -61,7 +61,8 @@ def stand_and_step(
     share = np.zeros(frames)
     share[: ends[0]] = wander(ends[0], 0.12, 0.88, 0.8)
     share[ends[0] : ends[1]] = 1.0
-    k, left = ends[2], True
+    k = ends[2]
+    left = True
     while k < frames:
         count = round(0.85 * rng.uniform(0.85, 1.15) * RATE)
         share[k : k + count] = float(left)
@@ -78,12 +79,14 @@ def stand_and_step(
         places = layouts[side].positions[:, :2]
         way = np.column_stack([wander(frames, -reach, reach, 0.7), wander(frames, -reach, reach, 0.5)])
         on = np.concatenate([[False], load[side] > 1.0, [False]])
-        begins, stops = np.flatnonzero(on[1:] & ~on[:-1]), np.flatnonzero(~on[1:] & on[:-1])
+        begins = np.flatnonzero(on[1:] & ~on[:-1])
+        stops = np.flatnonzero(~on[1:] & on[:-1])
         for begin, stop in zip(begins, stops, strict=True):
             begin = max(begin, ends[2])
             if stop > begin:
                 u = np.linspace(0.0, 1.0, stop - begin)
-                heel, toe = rng.uniform(-0.85, -0.5), rng.uniform(0.5, 0.85)
+                heel = rng.uniform(-0.85, -0.5)
+                toe = rng.uniform(0.5, 0.85)
                 way[begin:stop, 0] = np.interp(u, [0.0, 0.25, 0.75, 1.0], [heel, 0.5 * heel, 0.6 * toe, toe])
                 way[begin:stop, 1] = np.interp(u, [0.0, 0.3, 0.7, 1.0], rng.uniform(-0.6, 0.6, 4))
         way = gaussian_filter1d(way, 0.03 * RATE, axis=0)
@@ -103,11 +106,14 @@ class Pad:
             ring = layout.cell_polygon(i)
             middle = ring.mean(axis=0)
             for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-                ab, ma, mb = 0.5 * (a + b), 0.5 * (middle + a), 0.5 * (middle + b)
+                ab = 0.5 * (a + b)
+                ma = 0.5 * (middle + a)
+                mb = 0.5 * (middle + b)
                 points += [(middle + ma + mb) / 3, (a + ma + ab) / 3, (b + mb + ab) / 3, (ab + ma + mb) / 3]
         self._points = np.array(points)
         self._each = len(points) // n
-        waves, phases = rng.normal(0.0, 25.0, (6, 2)), rng.uniform(0.0, 2.0 * np.pi, 6)
+        waves = rng.normal(0.0, 25.0, (6, 2))
+        phases = rng.uniform(0.0, 2.0 * np.pi, 6)
         long_waves = 1e-4 * np.cos(self._points @ waves.T + phases).sum(axis=1) / np.sqrt(3.0)
         self._rise = long_waves + np.repeat(rng.normal(0.0, 5e-5, n), self._each)
         stiff = np.repeat(rng.normal(1.0, 0.03, n) * layout.areas / self._each, self._each)
@@ -144,7 +150,8 @@ def rolled(
     frames = round(seconds * RATE)
     time = np.arange(frames) / RATE
     places = layout.positions[:, :2]
-    low, high = places.min(axis=0), places.max(axis=0)
+    low = places.min(axis=0)
+    high = places.max(axis=0)
     rows = np.round(np.ptp(places[:, 1]) / 0.012) + 1
     u = np.linspace(0.0, rows, frames, endpoint=False)
     x = low[0] + (high[0] - low[0]) * (1.0 - np.abs((u % 2.0) - 1.0))
@@ -206,8 +213,10 @@ class Faults:
 
     def _held(self, force: Array) -> Array:
         out = np.empty_like(force)
-        branch, peak = np.zeros(force.shape[1]), np.full(force.shape[1], 0.5)
-        last, crept = force[0], force[0].copy()
+        branch = np.zeros(force.shape[1])
+        peak = np.full(force.shape[1], 0.5)
+        last = force[0]
+        crept = force[0]
         for k, now in enumerate(force):
             peak = np.where(now < 0.2, 0.5, np.maximum(peak, now))
             branch = np.clip(branch - (now - last) / (0.1 * peak), 0.0, 1.0)
