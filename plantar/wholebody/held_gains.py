@@ -9,7 +9,7 @@ Source: Franklin, Powell and Workman, Digital control of dynamic systems (1998),
 
 import warnings
 from collections.abc import Callable
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -86,7 +86,7 @@ def check_gains(
     plant = _Plant(robot, control, skin, start)
     try:
         found = plant.torques(most, push)
-        growth = plant.growth(dt)
+        growth = plant.free().growth(dt)
         if growth > 1.0 + _GROWS:
             found.append(
                 f"free motion grows by e in {dt / np.log(growth):.2g} s at a period of {1e3 * dt:g} ms: lower the "
@@ -94,15 +94,15 @@ def check_gains(
             )
         else:
             for patch in skin.patches:
-                touches = plant.taxels(patch)
-                yielded = min(plant.yields(taxel, push) for taxel in touches)
+                touches = [plant.touched(taxel, push) for taxel in plant.taxels(patch)]
+                yielded = min(push * touch.compliance() for touch in touches)
                 if yielded < give:
                     found.append(
                         f"patch '{patch.name}' yields by {1e3 * yielded:.2g} mm to {push:g} N, less than "
                         f"{1e3 * give:g} mm: what moves into it meets large forces; lower the stiffness of the tasks "
                         "above the touch"
                     )
-                touched = max(plant.growth(dt, taxel, push, constant, ratio) for taxel in touches)
+                touched = max(touch.growth(dt, constant, ratio) for touch in touches)
                 if touched > max(growth, 1.0) + _GROWS:
                     found.append(
                         f"a touch on patch '{patch.name}' grows by e in {dt / np.log(touched):.2g} s at a period of "
@@ -159,16 +159,21 @@ class _Plant:
                 )
         return found
 
-    def yields(self, taxel: int, force: float) -> float:
-        """How far in m a taxel gives way to a force in N in the end; infinity where no spring holds it."""
-        torques, bias = self.rates(taxel, force)[0]
+    def free(self) -> "_Linear":
+        """The arm where nothing touches it."""
+        untouched = np.zeros(len(self.start))
+        return self._linear(*self.rates(0, 0.0), untouched, untouched)
+
+    def touched(self, taxel: int, force: float) -> "_Linear":
+        """The arm with a force in N on a taxel."""
+        by_place, by_speed = self.rates(taxel, force)
+        answer = self.answer(taxel, force)
+        return self._linear(by_place, by_speed, self.row(taxel), answer)
+
+    def _linear(self, *given: NDArray[np.float64]) -> "_Linear":
         self.robot.update(self.start, self.still, self.robot.time)
-        row = self.row(taxel)
-        pushed = row + self.answer(taxel, force)
-        moved, _, rank, _ = np.linalg.lstsq(bias - torques, pushed, rcond=1e-9)
-        if rank < len(row) and np.abs((bias - torques) @ moved - pushed).max() > 1e-6 * np.abs(pushed).max():
-            return np.inf
-        return abs(force * float(row @ moved))
+        inverse = np.asarray(np.linalg.inv(self.robot.mass_matrix), dtype=np.float64)
+        return _Linear(inverse, *given)
 
     def row(self, taxel: int) -> NDArray[np.float64]:
         """Jacobian (n,) of a taxel's place along its axis, in the robot's state now."""
@@ -196,29 +201,49 @@ class _Plant:
                 rates[:, :, i] = (ends[0] - ends[1]) / (2.0 * _STEP)
         return by_place, by_speed
 
-    def growth(
-        self, period: float, taxel: int = 0, force: float = 0.0, constant: float = 1.0, ratio: float = 1.0
-    ) -> float:
-        """Largest magnitude of an eigenvalue of one tick; with a force, touched by a spring and damper."""
-        count = len(self.start)
-        by_place, by_speed = self.rates(taxel, force)
-        self.robot.update(self.start, self.still, self.robot.time)
-        inverse = np.linalg.inv(self.robot.mass_matrix)
-        held = np.hstack([by_place[0], by_speed[0]])
-        moves = np.zeros((3 * count, 3 * count))  # of place, speed and held torque
-        moves[:count, count : 2 * count] = np.eye(count)
-        moves[count : 2 * count, :count] = -inverse @ by_place[1]
-        moves[count : 2 * count, count : 2 * count] = -inverse @ by_speed[1]
-        moves[count : 2 * count, 2 * count :] = inverse
-        if force:
-            row = self.row(taxel)
-            mass = 1.0 / max(float(row @ inverse @ row), 1e-9)
-            stiffness = mass / (constant * ratio) ** 2
-            damping = 2.0 * mass / constant
-            moves[count : 2 * count, :count] -= inverse @ np.outer(row, stiffness * row)
-            moves[count : 2 * count, count : 2 * count] -= inverse @ np.outer(row, damping * row)
-            # The skin reads the spring's and the damper's force.
-            held -= np.outer(self.answer(taxel, force), np.concatenate([stiffness * row, damping * row]))
+
+class _Linear(NamedTuple):
+    """An arm and its controller about a posture at rest, n joints.
+
+    `inverse`: of the mass matrix (n, n); `by_place`, `by_speed`: rates (2, n, n) of torques and of the bias; `row`:
+    Jacobian (n,) of the touched taxel's place along its axis; `answer`: torques (n,) per N on it; zeros of both where
+    nothing touches.
+    """
+
+    inverse: NDArray[np.float64]
+    by_place: NDArray[np.float64]
+    by_speed: NDArray[np.float64]
+    row: NDArray[np.float64]
+    answer: NDArray[np.float64]
+
+    def compliance(self) -> float:
+        """How far in m per N the taxel gives way in the end; infinity where no spring holds it."""
+        torques, bias = self.by_place
+        pushed = self.row + self.answer
+        moved, _, rank, _ = np.linalg.lstsq(bias - torques, pushed, rcond=1e-9)
+        if rank < len(pushed) and np.abs((bias - torques) @ moved - pushed).max() > 1e-6 * np.abs(pushed).max():
+            return np.inf
+        return abs(float(self.row @ moved))
+
+    def growth(self, period: float, constant: float = 1.0, ratio: float = 1.0) -> float:
+        """Largest magnitude of an eigenvalue of one tick, with a touch's spring and damper."""
+        count = len(self.row)
+        row = self.row
+        inverse = self.inverse
+        mass = 1.0 / max(float(row @ inverse @ row), 1e-9)
+        stiffness = mass / (constant * ratio) ** 2
+        damping = 2.0 * mass / constant
+        place = slice(count)
+        speed = slice(count, 2 * count)
+        torque = slice(2 * count, 3 * count)
+        moves = np.zeros((3 * count, 3 * count))
+        moves[place, speed] = np.eye(count)
+        moves[speed, place] = -inverse @ self.by_place[1] - inverse @ np.outer(row, stiffness * row)
+        moves[speed, speed] = -inverse @ self.by_speed[1] - inverse @ np.outer(row, damping * row)
+        moves[speed, torque] = inverse
+        # The skin reads the spring's and the damper's force.
+        read = np.outer(self.answer, np.concatenate([stiffness * row, damping * row]))
+        held = np.hstack([self.by_place[0], self.by_speed[0]]) - read
         step = expm(moves * period)
-        closed = step[: 2 * count, : 2 * count] + step[: 2 * count, 2 * count :] @ held
+        closed = step[: 2 * count, : 2 * count] + step[: 2 * count, torque] @ held
         return float(np.abs(np.linalg.eigvals(closed)).max())
