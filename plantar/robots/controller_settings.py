@@ -11,7 +11,8 @@ from plantar.common.settings.body_scale import BodyScale
 from plantar.common.settings.part import Part
 from plantar.common.sides import Side
 from plantar.errors import InputError, SceneError
-from plantar.gait.balance.balance_laws import balance_gains
+from plantar.gait.balance.balance_laws import balance_gains, law_of
+from plantar.gait.balance.law import LawGains
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.controller_tables import CONTROLLER_TABLES, OPTIONAL_PARTS
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
@@ -93,15 +94,13 @@ def controller_settings(
     }
     tables = {name: {**defaults.get(name, {}), **given} for name, given in _given(scene, robot).items()}
     swing = swing_kinds()[control.swing_shape]
-    balance = scene.controller.get("balance", {})
-    tuned = {} if balance.get("law", robot.balance.get("law")) != robot.balance.get("law") else robot.balance
-    parts: dict[str, Any] = {"balance": balance_gains({**tuned, **balance})}
+    parts: dict[str, Any] = {"balance": _balance(scene, robot)}
 
     def runs(kind: type[Part]) -> bool:
         return kind.unmet(lambda key: _value(key, control, tables)) is None
 
-    others = {kind.table for kind in (*swing_kinds().values(), *proposer_kinds())}
-    for name in CONTROLLER_TABLES.keys() - parts.keys() - others:
+    chosen = {kind.table for kind in (*swing_kinds().values(), *proposer_kinds())}  # several kinds, or none, at a time
+    for name in CONTROLLER_TABLES.keys() - parts.keys() - chosen:
         (kind,) = CONTROLLER_TABLES[name]
         needed = name not in OPTIONAL_PARTS or runs(kind)
         parts[name] = kind.from_table(tables[name], f"[{name}]", SceneError) if needed else None
@@ -174,6 +173,13 @@ def _value(key: str, control: Control, tables: Mapping[str, Mapping[str, Any]]) 
     if table == "control":
         return getattr(control, name)
     return tables[table].get(name, CONTROLLER_TABLES[table][0].__dataclass_fields__[name].default)
+
+
+def _balance(scene: Task, robot: Robot) -> LawGains:
+    """Gains of the scene's law; the robot's are those of its own law."""
+    stated = scene.controller.get("balance", {})
+    both = {**robot.balance, **stated}
+    return balance_gains(both if law_of(both) == law_of(robot.balance) else stated)
 
 
 def _refuse_unused(scene: Task, robot: Robot) -> None:

@@ -51,6 +51,15 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default():
     assert controller_settings(load_scene("flat", ["dcm_gain=2"]), robot, REFERENCE_BODY, {}).balance.dcm_gain == 2.0
 
 
+def test_a_robots_gains_are_those_of_its_own_law_named_or_not():
+    tuned = {"dcm_gain": 2.5}
+    for own in ({}, {"law": "com_admittance"}):
+        robot = replace(load_robot("h1"), balance={**own, **tuned})
+        for law in ("com_admittance", "wrench_distribution"):
+            made = controller_settings(load_scene("flat", [f"balance.law={law}"]), robot, REFERENCE_BODY, {})
+            assert (made.balance.dcm_gain == 2.5) is (law == "com_admittance")
+
+
 def test_a_robot_walks_as_low_as_its_steps_need():
     robot = load_robot("h1")
 

@@ -23,6 +23,12 @@ def balance_laws() -> dict[str, type[LawGains]]:
     return {**own, **extensions("plantar.balance_laws", LawGains, tuple(own))}
 
 
+def law_of(table: Mapping[str, Any]) -> str:
+    """Name of the law that a `[balance]` table names, or the default's."""
+    law: str = table.get("law", next(iter(balance_laws())))
+    return law
+
+
 def balance_gains(table: Mapping[str, Any]) -> LawGains:
     """Gains of the law that a `[balance]` table names.
 
@@ -31,7 +37,7 @@ def balance_gains(table: Mapping[str, Any]) -> LawGains:
         3.0
     """
     laws = balance_laws()
-    law = table.get("law", next(iter(laws)))
+    law = law_of(table)
     if law not in laws:
         raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(laws)}")
     gains = {k: v for k, v in table.items() if k != "law"}
