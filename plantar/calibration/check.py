@@ -17,10 +17,12 @@ from plantar.layouts.calibration import SoleCalibration
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import layout_for, true_runs
 
-_STILL = 0.02  # of the weight, by which a body that stands still is off it
+_STILL = 0.02  # of the weight, by which a body that stands still is off it: gains that changed by less than 4 % pass
 _LIFTED = 0.05  # of the weight, below which a sole is off the ground
-_MOVED = 0.02  # of a taxel's share of the weight: an offset that moved by more is taken again
-_SHORTEST = 0.5  # s of a phase
+# Of a taxel's share of the weight, by which an offset may move: with all of a sole's moved so far in one direction, its
+# sum is off by as much as a body that stands still.
+_MOVED = _STILL
+_SHORTEST = 0.5  # s of a phase: half of the second for which each foot is lifted
 
 
 @dataclass(frozen=True)
@@ -225,6 +227,7 @@ def _still(total: NDArray[np.float64], rate: float) -> NDArray[np.bool_]:
 def _still_lifted(
     own: NDArray[np.float64], total: NDArray[np.float64], weight: float, rate: float
 ) -> NDArray[np.bool_]:
+    """Frames (k,) in which a sole is off the ground, without the tenth of a second beside touchdown and lift-off."""
     out = np.zeros(len(own), dtype=bool)
     for a, b in true_runs(own < _LIFTED * max(weight, float(np.median(total)))):
         margin = max(1, round(0.1 * rate))
