@@ -61,9 +61,10 @@ def with_folder_page(folder: str | os.PathLike[str], title: str, files: Sequence
     if not any(name.endswith((".html", ".png")) for name in files):
         return list(files)
     target = Path(folder) / INDEX
-    inside = [Path(name).relative_to(folder).as_posix() for name in files if Path(name) != target]
+    others = [name for name in files if Path(name) != target]
+    inside = [Path(name).relative_to(folder).as_posix() for name in others]
     write_text(target, page(title, "", list(_sections(inside))))
-    return [str(target), *(name for name in files if Path(name) != target)]
+    return [str(target), *others]
 
 
 def _sections(files: Sequence[str]) -> Iterable[Section]:
@@ -77,15 +78,15 @@ def _sections(files: Sequence[str]) -> Iterable[Section]:
 
 
 def _is_twin(name: str, files: Sequence[str]) -> bool:
-    """Whether a file is a picture's vector form, which stands beside it."""
+    """Whether a file is a picture's vector form, which is listed beside it."""
     return name.endswith(".svg") and f"{name[:-4]}.png" in files
 
 
 def _about(name: str, files: Sequence[str]) -> str:
     path = Path(name)
     layout = path.name.startswith("layout_")
-    told = "places and shapes of the taxels" if layout else _ABOUT.get(path.name, _ENDINGS.get(path.suffix, ""))
+    text = "places and shapes of the taxels" if layout else _ABOUT.get(path.name, _ENDINGS.get(path.suffix, ""))
     vector = f"{name[:-4]}.svg"
     if path.suffix == ".png" and vector in files:
-        return f'{told}, also as <a href="{quote(vector)}">SVG</a>'
-    return told
+        return f'{text}, also as <a href="{quote(vector)}">SVG</a>'
+    return text
