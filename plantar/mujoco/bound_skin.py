@@ -17,6 +17,7 @@ from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
 from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.patch_load import PatchLoad
+from plantar.kernels.contacts.pressed_patch import load_parts
 from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.contacts import ContactReader
@@ -57,19 +58,20 @@ class SkinReading(Reading):
     @cached_property
     def vectors(self) -> NDArray[np.float64]:
         """Force (n, 3) on each taxel in N."""
-        count = len(self.force)
-        return self._block[2 * count : 5 * count].reshape(count, 3)
+        found: NDArray[np.float64] = load_parts(self._block)[2]
+        return found
 
     @cached_property
     def wrench(self) -> NDArray[np.float64]:
         """Wrench (6,) of MuJoCo's contacts on body about sole origin in N and N m."""
-        return self._block[5 * len(self.force) :]
+        found: NDArray[np.float64] = load_parts(self._block)[3]
+        return found
 
     @cached_property
     def depth(self) -> NDArray[np.float64]:
         """Overlap (n,) of geoms in m, 0 elsewhere."""
-        count = len(self.force)
-        return self._block[count : 2 * count]
+        found: NDArray[np.float64] = load_parts(self._block)[1]
+        return found
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
@@ -330,7 +332,7 @@ class SkinView:
         self._reach = skin.reach
         self._still = np.zeros(len(self._load.block))
         self._count = len(skin)
-        self._no_force = self._still[: self._count]
+        self._no_force = load_parts(self._still)[0]
         self._worn = None if skin.faults is None else skin.faults.worn(skin.layout, skin.seed)
         self._read_at = -math.inf
         self.carried = True
@@ -396,7 +398,7 @@ class SkinView:
         load = self.press(foot)
         near = None if self._skin.proximity_range is None else self._skin.distances(self)
         block = load.block.copy()
-        force = block[: self._count]
+        force = load_parts(block)[0]
         slip = self._slip(foot) if self._skin.slip else None
         if self._worn is not None and not load.is_lost():
             if time < self._read_at:  # the simulation began again
@@ -436,7 +438,7 @@ def _made(
     carried: bool,
     slip: NDArray[np.float64] | None,
 ) -> SkinReading:
-    """A reading of a kernel's `block`, made for it: forces, depths, vectors and wrench one after the other."""
+    """A reading of a kernel's `block` (see `load_parts`), made for it."""
     reading = SkinReading.taken_over(time, force, proximity)
     fields = reading.__dict__
     fields["_block"] = block

@@ -65,14 +65,11 @@ class PatchLoad:
         self.limits = limits
         self.polygon = polygon
         self.turn = turn
-        self.block = np.zeros(5 * count + 6)  # all of them, to be copied at once
-        self.forces = self.block[:count]
+        self.block = pressed_patch.load_block(count)
+        self.forces, self.depths, self.vectors, self.wrench = pressed_patch.load_parts(self.block)
         self._forces = self.forces
-        self.depths = self.block[count : 2 * count]
         self._depths = self.depths
-        self.vectors = self.block[2 * count : 5 * count].reshape(count, 3)
         self._vectors = self.vectors
-        self.wrench = self.block[5 * count :]
         self._wrench = self.wrench
         self.rows = np.zeros((max(count, 1), 3))
         self.cells = np.zeros(max(count, 1), dtype=np.int32)

@@ -6,9 +6,20 @@ import numpy as np
 
 from ..geometry import clean, convex
 
-__all__ = ["PressedPatch", "patch_key", "spread_part", "spread_whole"]
+__all__ = ["PressedPatch", "load_block", "load_parts", "patch_key", "spread_part", "spread_whole"]
 
 _EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure has the moment that is asked for
+
+
+def load_block(count):
+    """Room for what a number of cells carry, in one array, so that it is copied at once: see `load_parts`."""
+    return np.zeros(5 * count + 6)
+
+
+def load_parts(block):
+    """Forces (n,) along the cells' axes, overlaps (n,), forces (n, 3) and the contacts' wrench (6,) in a block."""
+    count = (len(block) - 6) // 5
+    return block[:count], block[count : 2 * count], block[2 * count : 5 * count].reshape(count, 3), block[5 * count :]
 
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):

@@ -42,14 +42,11 @@ class TaxelLoad:
         self.hull = hull
         self.middle = hull.mean(axis=0)
         self.level = bool((positions[:, 2] == 0.0).all())
-        self.block = np.zeros(5 * count + 6)  # all of them, to be copied at once
-        self.forces = self.block[:count]
+        self.block = pressed_patch.load_block(count)
+        self.forces, self.depths, self.vectors, self.wrench = pressed_patch.load_parts(self.block)
         self._forces = self.forces
-        self.depths = self.block[count : 2 * count]
         self._depths = self.depths
-        self.vectors = self.block[2 * count : 5 * count].reshape(count, 3)
         self._vectors = self.vectors
-        self.wrench = self.block[5 * count :]
         self._wrench = self.wrench
         self.sums = np.zeros((2, 6))  # wrench of contacts that the sole has, and of those from above
         self.weights = np.zeros(count)
