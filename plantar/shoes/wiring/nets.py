@@ -5,7 +5,7 @@ multiplexer. Load cells: each has its amplifier. A sheet: each row on a pin of U
 is read, each column on a resistor to ground and a channel.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -114,8 +114,9 @@ def wiring_of(shoe: Shoe, parameters: ShoeParameters, tail: tuple[str, ...] = ()
     return _dividers(ids, lengths) if cell.circuit == "divider" else _bridges(cell, ids, lengths)
 
 
-def _multiplexers(count: int) -> Iterator[tuple[str, Pin]]:
-    for n in range(count):
+def _multiplexers(used: Iterable[int]) -> Iterator[tuple[str, Pin]]:
+    """Nets and pins of multiplexers 0 (U2) to 2 (U4), and of U1 for them."""
+    for n in used:
         part = f"U{2 + n}"
         yield "3V3", Pin(part, "VCC")
         yield "GND", Pin(part, "GND")
@@ -136,7 +137,7 @@ def _gathered(pins: list[tuple[str, Pin]]) -> dict[str, tuple[Pin, ...]]:
 
 def _dividers(ids: list[int], lengths: list[float]) -> Wiring:
     count = -(-len(ids) // CHANNELS)
-    pins = list(_multiplexers(count))
+    pins = list(_multiplexers(range(count)))
     leads = []
     channels = []
     for k, (taxel, length) in enumerate(zip(ids, lengths, strict=True)):
@@ -203,7 +204,7 @@ def _matrix(shoe: Shoe, tail: tuple[str, ...]) -> Wiring:
     of_columns = -(-columns // CHANNELS)
     # rows are read by the third analog input, whose multiplexer is U4, also where U3 is not needed
     used = [n for n in range(MULTIPLEXERS) if n < of_columns or n == MULTIPLEXERS - 1]
-    pins = [(net, pin) for net, pin in _multiplexers(MULTIPLEXERS) if _of(pin, net) in used]
+    pins = list(_multiplexers(used))
     channels = []
     for taxel, (row, column) in zip(shoe.layout.ids.tolist(), plan.lines.tolist(), strict=True):
         pins += [(f"R{row}", Pin(f"T{taxel}", "1")), (f"C{column}", Pin(f"T{taxel}", "2"))]
@@ -228,13 +229,6 @@ def _matrix(shoe: Shoe, tail: tuple[str, ...]) -> Wiring:
         Bought("-", 1, *_CABLE),
     )  # fmt: skip
     return Wiring("matrix", _gathered(pins), (), bought, tuple(channels), tail)
-
-
-def _of(pin: Pin, net: str) -> int:
-    """Which multiplexer a pin belongs to; U1's analog inputs by their net."""
-    if pin.part != "U1":
-        return int(pin.part[1:]) - 2
-    return int(net[1:]) if net.startswith("A") else 0
 
 
 def _span(letter: str, first: int, count: int) -> str:
