@@ -6,7 +6,7 @@ run along the front, columns zigzag on the back; both lead to the tail, whose li
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -124,6 +124,13 @@ def flex_board(shoe: Shoe, parameters: ShoeParameters) -> FlexBoard:
     raise FootError(f"no way for line {order[0]} of the sheet to its tail; use a larger pitch or narrower electrodes")
 
 
+class _Part(NamedTuple):
+    """A joined part of a net's copper on a layer, known by its shapely middle lines."""
+
+    layer: int
+    middle: Any
+
+
 class _Drawing:
     def __init__(self, shoe: Shoe, p: ShoeParameters) -> None:
         plan = shoe.plan
@@ -221,57 +228,56 @@ class _Drawing:
         self.pieces: list[Piece] = []
         self.vias: list[tuple[str, Array]] = []
         self.pins: dict[int, str] = {}
-        self.parts: dict[str, list[list[Any]]] = {name: [] for name in self.names}
-        box = shapely.box(-0.5 * self.size, -0.5 * self.size, 0.5 * self.size, 0.5 * self.size)
+        self.parts: dict[str, list[_Part]] = {name: [] for name in self.names}
+        combs = shapely.box(-self.half, -self.half, self.half, self.half)
         for x, y in self.at.tolist():
-            self.router.block(shapely.affinity.translate(box, x, y).buffer(-_MARGIN), 0)
+            self.router.block(shapely.affinity.translate(combs, x, y), 0)
         for name, pin in self.pin_of.items():
             start = self.router.point(Node(0, _MOUTH, self.first_pin + pin))
             end = start + (_MOUTH * STEP + self.length - EDGE - 0.5 * TAIL_LINE) * self.out
             self._piece(name, 0, np.stack([start, end]), TAIL_LINE)
-        self._draw_lines()
+        for name in self.names:
+            self._draw_line(name)
         for name in order:
             if not self._lead_out(name):
                 return name
         return None
 
-    def _draw_lines(self) -> None:
-        """Rows along their combs, and columns from via to via on the back."""
-        for name in self.names:
-            axis = 0 if name[0] == "R" else 1
-            on = self.at[self.taxel_lines[:, axis] == int(name[1:])]
-            on = on[np.argsort(on[:, axis], kind="stable")]
-            if axis == 0:
-                level = self.half - 0.5 * SPINE
-                runs = np.split(on, np.flatnonzero(np.diff(on[:, 0]) > 1.5 * self.pitch) + 1)
-                for run in runs:
-                    beyond = np.where(self.out[0] < 0.0, [-_BESIDE, 0.0], [0.0, _BESIDE])  # at the tail's end
-                    x = np.array([run[0, 0] - self.half, run[-1, 0] + self.half]) + beyond
-                    ends = np.column_stack([x, run[[0, -1], 1] + level])
-                    self._part(name, 0, [ends])
-                continue
-            places = on + np.array([0.0, 0.5 * SPINE - self.half])
-            for place in places:
-                self._via(name, place)
-            straight: list[Array] = []
-            first = 0
-            for k in range(1, len(places)):
-                ends = places[k - 1 : k + 1]
-                if self.router.region.covers(shapely.LineString(ends)):
-                    straight.append(ends)
-                else:
-                    self._part(name, 1, straight or [places[first : first + 1].repeat(2, axis=0)])
-                    straight = []
-                    first = k
-            self._part(name, 1, straight or [places[first : first + 1].repeat(2, axis=0)])
+    def _draw_line(self, name: str) -> None:
+        """A row along its combs, or a column from via to via, in as many parts as the sheet's outline leaves."""
+        axis = 0 if name[0] == "R" else 1
+        on = self.at[self.taxel_lines[:, axis] == int(name[1:])]
+        on = on[np.argsort(on[:, axis], kind="stable")]
+        if axis == 0:
+            self._draw_row(name, on)
+        else:
+            self._draw_column(name, on)
+
+    def _draw_row(self, name: str, on: Array) -> None:
+        level = self.half - 0.5 * SPINE
+        beyond = np.where(self.out[0] < 0.0, [-_BESIDE, 0.0], [0.0, _BESIDE])  # at the tail's end
+        for run in np.split(on, np.flatnonzero(np.diff(on[:, 0]) > 1.5 * self.pitch) + 1):
+            x = np.array([run[0, 0] - self.half, run[-1, 0] + self.half]) + beyond
+            ends = np.column_stack([x, run[[0, -1], 1] + level])
+            self._part(name, 0, [ends])
+
+    def _draw_column(self, name: str, on: Array) -> None:
+        places = on + np.array([0.0, 0.5 * SPINE - self.half])
+        for place in places:
+            self._via(name, place)
+        inside = np.array(
+            [self.router.region.covers(shapely.LineString(ends)) for ends in pairwise(places)], dtype=bool
+        )
+        for run in np.split(places, np.flatnonzero(~inside) + 1):
+            alone = [run.repeat(2, axis=0)]
+            self._part(name, 1, [np.stack(ends) for ends in pairwise(run)] or alone)
 
     def _part(self, name: str, layer: int, lines: list[Array]) -> None:
-        """One joined part of a net's copper, known by its middle lines."""
+        """Draw a part of a net's copper by its middle lines."""
         for ends in lines:
-            if np.ptp(ends, axis=0).max() > 0.0:
-                self._piece(name, layer, ends)
+            self._piece(name, layer, ends)
         middle = shapely.union_all([shapely.LineString(ends) for ends in lines])
-        self.parts[name].append([layer, middle])
+        self.parts[name].append(_Part(layer, middle))
 
     def _piece(self, name: str, layer: int, ends: Array, width: float = LINE) -> None:
         if np.hypot(*(ends[1] - ends[0])) < 1e-9:
@@ -285,9 +291,8 @@ class _Drawing:
         for layer in (0, 1):
             self.router.occupy(shapely.Point(place).buffer(0.5 * VIA), layer, self.numbers[name])
 
-    def _sources(self, name: str, part: list[Any]) -> list[Node]:
-        layer, middle = part
-        found = self.router.within(middle.buffer(NEAR - 1e-3), layer, self.numbers[name])
+    def _sources(self, name: str, part: _Part) -> list[Node]:
+        found = self.router.within(part.middle.buffer(NEAR - 1e-3), part.layer, self.numbers[name])
         band = self.bands.get(name)
         if not self.banded or band is None:
             return found
@@ -307,22 +312,22 @@ class _Drawing:
             if way is None:
                 return False
             reached = targets[way[-1]]
-            self._take(name, way, joined, reached)
+            self._take(name, way, joined, [reached])
             joined.append(reached)
             left = [part for part in left if part is not reached]
         aim = Node(0, _MOUTH, self.first_pin + self.pin_of[name])
         way = self.router.route(number, [n for q in joined for n in self._sources(name, q)], [aim])
         if way is None:
             return False
-        self._take(name, way, joined, None)
+        self._take(name, way, joined, [])
         self.pins[self.pin_of[name]] = name
         return True
 
-    def _take(self, name: str, way: list[Node], joined: list[list[Any]], reached: list[Any] | None) -> None:
-        """Draw a way: from the copper of a joined part, with vias, to that of a reached one."""
+    def _take(self, name: str, way: list[Node], joined: list[_Part], reached: list[_Part]) -> None:
+        """Draw a way: from the copper of a joined part, with vias, to that of a reached one, or of none."""
         places = [self.router.point(node) for node in way]
-        for node, place, parts in ((way[0], places[0], joined), (way[-1], places[-1], [reached] if reached else [])):
-            near = [q[1] for q in parts if q[0] == node.layer]
+        for node, place, parts in ((way[0], places[0], joined), (way[-1], places[-1], reached)):
+            near = [part.middle for part in parts if part.layer == node.layer]
             if near:
                 middle = min(near, key=lambda m: float(m.distance(shapely.Point(place))))
                 touch = np.array(shapely.shortest_line(middle, shapely.Point(place)).coords)
