@@ -30,6 +30,7 @@ TAIL_LINE = 0.25  # wide, of half the tail's pitch
 SPINE = 0.3  # wide, of a comb, from which its fingers go out
 FINGER = 0.4  # wide
 GAP = 0.3  # between two fingers
+EDGE_LINE = 0.05  # wide, along the middle of which a board is cut
 _MARGIN = 0.15  # of a comb within its electrode's place
 _BESIDE = 0.5  # of a row's line beyond its outermost combs
 _ROOT = 2.0  # from the sheet's edge to where the grid begins
@@ -84,6 +85,12 @@ class FlexBoard:
     def nets(self) -> tuple[str, ...]:
         """Names of all nets."""
         return tuple(dict.fromkeys(comb.net for comb in self.combs))
+
+    @property
+    def edges(self) -> Array:
+        """Ends (k, 2, 2) of the outline's edges."""
+        corners = ring(self.outline)
+        return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
 
 
 def comb_shapes(size: float) -> tuple[Any, Any]:

@@ -8,18 +8,16 @@ from typing import Any
 import numpy as np
 
 from plantar.shoes.geometry.outline import ring
-from plantar.shoes.wiring.flex_board import TAIL_LINE, FlexBoard
+from plantar.shoes.wiring.flex_board import EDGE_LINE, TAIL_LINE, FlexBoard
 from plantar.shoes.wiring.grid_router import HOLE, VIA
 
-_EDGE = 0.05
 _UNIT = 1e6  # counts of a file to a mm: four digits before the point and six behind
 
 
 def gerber_zip(board: FlexBoard) -> bytes:
     """Gives an archive of a board's front, back, masks, outline and holes, as makers of boards take it."""
     contacts = [(ends, TAIL_LINE) for ends in board.contacts]
-    corners = ring(board.outline)
-    edges = [(ends, _EDGE) for ends in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
+    edges = [(ends, EDGE_LINE) for ends in board.edges]
     combs = [comb.shape for comb in board.combs]
     lines = [[(q.ends, q.width) for q in board.pieces if q.layer == layer] for layer in (0, 1)]
     vias = [place for _, place in board.vias]

@@ -6,12 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.shoes.geometry.outline import ring
-from plantar.shoes.wiring.flex_board import CONTACT, TAIL_LINE, FlexBoard
+from plantar.shoes.wiring.flex_board import CONTACT, EDGE_LINE, SPINE, TAIL_LINE, FlexBoard
 from plantar.shoes.wiring.grid_router import HOLE, VIA
 
 _VERSION = 20211014  # of the file format, which KiCad 6 introduced
 _THICK = 0.2
-_EDGE = 0.05
 _LAYERS = (
     '(0 "F.Cu" signal) (31 "B.Cu" signal) (36 "B.SilkS" user) (37 "F.SilkS" user) (38 "B.Mask" user) '
     '(39 "F.Mask" user) (44 "Edge.Cuts" user) (46 "B.CrtYd" user) (47 "F.CrtYd" user)'
@@ -47,9 +46,8 @@ def kicad_text(board: FlexBoard) -> str:
 
 
 def _outline(board: FlexBoard) -> Iterator[str]:
-    corners = ring(board.outline)
-    for (x0, y0), (x1, y1) in zip(corners.tolist(), np.roll(corners, -1, axis=0).tolist(), strict=True):
-        yield f'(gr_line (start {x0:.4f} {y0:.4f}) (end {x1:.4f} {y1:.4f}) (layer "Edge.Cuts") (width {_EDGE:g}))'
+    for (x0, y0), (x1, y1) in board.edges.tolist():
+        yield f'(gr_line (start {x0:.4f} {y0:.4f}) (end {x1:.4f} {y1:.4f}) (layer "Edge.Cuts") (width {EDGE_LINE:g}))'
 
 
 def _taxels(board: FlexBoard, number: dict[str, int]) -> Iterator[str]:
@@ -65,7 +63,7 @@ def _taxels(board: FlexBoard, number: dict[str, int]) -> Iterator[str]:
 def _comb_pad(pin: str, corners: NDArray[np.float64], net: str, number: dict[str, int]) -> str:
     """A pad of any outline: a small anchor in its spine, and the outline about it."""
     spine = corners[np.argmax(np.abs(corners[:, 1]))]
-    anchor = np.array([0.0, spine[1] - 0.15 * np.sign(spine[1])])
+    anchor = np.array([0.0, spine[1] - 0.5 * SPINE * np.sign(spine[1])])
     points = " ".join(f"(xy {x:.4f} {y:.4f})" for x, y in (corners - anchor).tolist())
     return (
         f'(pad "{pin}" smd custom (at {anchor[0]:.4f} {anchor[1]:.4f}) (size 0.2 0.2) (layers "F.Cu" "F.Mask") '
