@@ -133,30 +133,31 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
     if has_ground_plate(plan):
         return _plate_share(plan)
     springs = _Springs.of(plan, parameters, load.force / sum(c.area for c in plan.cells))
-    x, y = springs.points.T
-    low_x, low_y, high_x, high_y = plan.contact.bounds
-    middle_x = 0.5 * (low_x + high_x)
-    middle_y = 0.5 * (low_y + high_y)
-    halves = {"heel": x < middle_x, "toes": x > middle_x, "left": y > middle_y, "right": y < middle_y}
-    flat, sunk = springs.share(np.ones(len(x), dtype=bool), load.force)
-    shares = {name: springs.share(held, load.force)[0] for name, held in halves.items()}
+    flat, sunk = springs.share(np.ones(len(springs.points), dtype=bool), load.force)
+    shares = {
+        name: springs.share(_within(half, springs.points), load.force)[0] for name, half in _halves(plan).items()
+    }
     worst = min(shares, key=lambda name: shares[name])
     beside = float((~springs.taxel).sum()) / max(1, int(springs.taxel.sum()))
     stiffness = max(0.0, 1.0 - flat) / (flat * beside) if flat > 0.0 and beside > 0.0 else 0.0
     return LoadShare(flat, shares[worst], worst, sunk, stiffness)
 
 
-def _plate_share(plan: ShoePlan) -> LoadShare:
+def _halves(plan: ShoePlan) -> dict[str, Any]:
+    """Shapely boxes about each half of a plan's face."""
     low_x, low_y, high_x, high_y = plan.contact.bounds
     middle_x = 0.5 * (low_x + high_x)
     middle_y = 0.5 * (low_y + high_y)
-    boxes = {
+    return {
         "heel": shapely.box(low_x, low_y, middle_x, high_y),
         "toes": shapely.box(middle_x, low_y, high_x, high_y),
         "left": shapely.box(low_x, middle_y, high_x, high_y),
         "right": shapely.box(low_x, low_y, high_x, middle_y),
     }
-    shares = {name: plate_carries(plan, plan.contact & box) for name, box in boxes.items()}
+
+
+def _plate_share(plan: ShoePlan) -> LoadShare:
+    shares = {name: plate_carries(plan, plan.contact & half) for name, half in _halves(plan).items()}
     worst = min(shares, key=lambda name: shares[name])
     return LoadShare(plate_carries(plan, plan.contact), shares[worst], worst, 0.0, 0.0)
 
