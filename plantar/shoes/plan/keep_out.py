@@ -39,11 +39,9 @@ class KeepOut:
     @property
     def note(self) -> str:
         """Source of the links."""
-        return (
-            ""
-            if self.known
-            else "the shank is taken to stand on the ankle: no robot's model shows where it passes (or give --shank)"
-        )
+        if self.known:
+            return ""
+        return "the shank is taken to stand on the ankle: no robot's model shows where it passes (or give --shank)"
 
     def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
         """Gives number of points within 2 mm of a box with corners low and high (3,)."""
