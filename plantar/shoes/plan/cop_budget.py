@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from plantar.common.gravity import GRAVITY
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.load_share import spring_forces, taxel_stiffness
+from plantar.shoes.plan.load_share import spring_forces, square_grid, taxel_stiffness
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import LoadCase
 from plantar.shoes.plan.touching import ERROR
 
-_PLACES = 100  # of the load, spread evenly over the face
+_PLACES = 100  # of the load, about so many, spread evenly over the face
 _SHOES = 4  # drawn for each place
 _QUANTILE = 0.95
 _NEAR = 1.6  # of the distance to the nearest: neighbours of a cell
@@ -38,9 +38,8 @@ Array = NDArray[np.float64]
 class CopBudget:
     """Error of the center of pressure in mm, 95 % of places and shoes.
 
-    Each cause alone, and all `together`; `limit` of the stated `use`; `seats` are those of the cells, of
-    which low ones stay below the threshold, `range` what is
-    beyond the rated load, `blind_rim` what lies beyond the taxels' hull.
+    Each cause alone, and all `together`; `limit` of the stated `use`; `seats` are those of the cells, of which low ones
+    stay below the threshold, `range` what is beyond the rated load, `blind_rim` what lies beyond the taxels' hull.
     """
 
     seats: float
@@ -68,7 +67,7 @@ def check_cop_budget(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
     points = np.array([c.centroid.coords[0] for c in plan.cells])
     stiffness = taxel_stiffness(plan, p, force / float(areas.sum())) * areas
     chance = np.random.default_rng(3)
-    places = _places(plan.contact)
+    places = square_grid(plan.contact, float(np.sqrt(plan.contact.area / _PLACES)))
     acting = _within_hull(points, places)
     heights = p.made_by.scatter * chance.standard_normal((_SHOES, len(points)))
     gaps = np.concatenate([np.zeros((1, len(points))), -heights])
@@ -110,15 +109,6 @@ def _limit(face: Any, use: str) -> float:
     low_x, low_y, high_x, high_y = face.bounds
     width = float(high_y - low_y)
     return {"contact": ERROR * width, "gait": _OF_LENGTH * float(high_x - low_x), "balance": _OF_WIDTH * width}[use]
-
-
-def _places(face: Any) -> Array:
-    """Places (n, 2) on a square grid in a shapely face, near to _PLACES of them."""
-    step = float(np.sqrt(face.area / _PLACES))
-    low_x, low_y, high_x, high_y = face.bounds
-    x, y = (np.arange(low + 0.5 * step, high, step) for low, high in ((low_x, high_x), (low_y, high_y)))
-    grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    return np.asarray(grid[shapely.contains_xy(face, grid[:, 0], grid[:, 1])])
 
 
 def _within_hull(points: Array, places: Array) -> Array:

@@ -134,9 +134,7 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
         return _plate_share(plan)
     springs = _Springs.of(plan, parameters, load.force / sum(c.area for c in plan.cells))
     flat, sunk = springs.share(np.ones(len(springs.points), dtype=bool), load.force)
-    shares = {
-        name: springs.share(_within(half, springs.points), load.force)[0] for name, half in _halves(plan).items()
-    }
+    shares = {name: springs.share(_within(half, springs.points), load.force)[0] for name, half in _halves(plan).items()}
     worst = min(shares, key=lambda name: shares[name])
     beside = float((~springs.taxel).sum()) / max(1, int(springs.taxel.sum()))
     stiffness = max(0.0, 1.0 - flat) / (flat * beside) if flat > 0.0 and beside > 0.0 else 0.0
@@ -174,12 +172,10 @@ class _Springs:
     @classmethod
     def of(cls, plan: ShoePlan, p: ShoeParameters, pressure: float) -> "_Springs":
         step = math.sqrt(plan.contact.area / _POINTS)
-        low_x, low_y, high_x, high_y = plan.contact.bounds
-        x, y = np.meshgrid(np.arange(low_x + 0.5 * step, high_x, step), np.arange(low_y + 0.5 * step, high_y, step))
-        points = np.column_stack([x.ravel(), y.ravel()])
+        points = square_grid(plan.contact, step)
         rim = pad_rim(plan, p)
-        cells = shapely.union_all(plan.cells)
-        inside, taxel, raised = (_within(shape, points) for shape in (plan.contact, cells, rim))
+        taxel = _within(shapely.union_all(plan.cells), points)
+        raised = _within(rim, points)
         gap = np.where(taxel, 0.0, np.where(raised, p.pad_relief, p.taxel_protrusion))
         beside = _HARD
         if p.pad_thickness > 0.0:
@@ -190,7 +186,7 @@ class _Springs:
         stiffness = (
             np.where(taxel, taxel_stiffness(plan, p, pressure), np.where(raised, rim_stiffness, beside)) * step**2
         )
-        return cls(points[inside], taxel[inside], gap[inside], stiffness[inside])
+        return cls(points, taxel, gap, stiffness)
 
     def share(self, held: NDArray[np.bool_], force: float) -> tuple[float, float]:
         if not held.any():
@@ -199,6 +195,14 @@ class _Springs:
         at = points - points.mean(axis=0)  # the load acts in the middle
         forces, travel = spring_forces(at, self.stiffness[held], self.gap[held][None], force)
         return float(forces[0, self.taxel[held]].sum() / forces.sum()), float(travel[0])
+
+
+def square_grid(face: Any, step: float) -> Array:
+    """Gives middles (n, 2) of squares with a side, step, that lie in a shapely face, row by row."""
+    low_x, low_y, high_x, high_y = face.bounds
+    x, y = (np.arange(low + 0.5 * step, high, step) for low, high in ((low_x, high_x), (low_y, high_y)))
+    grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    return np.asarray(grid[_within(face, grid)])
 
 
 def spring_forces(points: Array, stiffness: Array, gaps: Array, force: float) -> tuple[Array, Array]:
