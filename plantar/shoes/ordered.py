@@ -28,22 +28,24 @@ def build_ordered(
     """
     light = order.layout_only or order.coupon
     common: dict[str, Any] = {"side": order.side, "cell_area": order.cell_area, "name": order.name}
-    chosen = None
-    if order.cell == "auto":
-        if order.insole is not None:
-            raise InputError("--cell auto chooses for a robot's shoe; of an insole give --cell velostat")
-        chosen = choose_cell(foot, parameters)
-    common["cell"] = ordered_cell(order) if chosen is None else chosen.cell
     common |= {"parameters": parameters, "layout_only": light, "progress": progress}
+    common["cell"] = ordered_cell(order)
+    if order.cell == "auto" and order.insole is not None:
+        raise InputError("--cell auto chooses for a robot's shoe; of an insole give --cell velostat")
     if order.coupon and order.layout_only:
         raise InputError("--coupon writes prints, --layout-only none; give one of them")
     if order.coupon and order.side == "right":
         raise InputError("a coupon is a piece of the left shoe, whose mirror image the right one is; leave --side out")
     if order.insole is None:
+        reasons: tuple[str, ...] = ()
+        if order.cell == "auto":
+            choice = choose_cell(foot, parameters)
+            common["cell"] = choice.cell
+            reasons = choice.notes
         rim = order.rim or "whole"
         wanted = order.taxels if order.taxels is not None or rim == "fine" or order.cell is not None else taxels
         build = build_shoe(foot, taxels=wanted, overhang=order.overhang, rim=cast(Any, rim), **common)
-        return build if chosen is None else replace(build, notes=(*chosen.notes, *build.notes))
+        return replace(build, notes=(*reasons, *build.notes))
     if order.taxels is not None or order.overhang > 0.0:
         raise InputError("an insole takes the taxels that fit in the foot's outline; leave out --taxels, --overhang")
     return build_insole(foot, order.insole, rim=cast(Any, order.rim or "fine"), **common)

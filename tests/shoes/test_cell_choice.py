@@ -32,3 +32,16 @@ def test_an_insole_is_not_chosen_for():
     foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
     with pytest.raises(InputError, match="of an insole give --cell velostat"):
         build_ordered(foot, ShoeOrder(cell="auto", insole=6.0), ShoeParameters())
+
+
+@pytest.mark.parametrize(
+    ("order", "message"),
+    [
+        (ShoeOrder(cell="auto", cell_area=300.0), "leave --cell-area out"),
+        (ShoeOrder(cell="auto", rim="fine"), "a fine rim is made of skin"),
+    ],
+)
+def test_what_a_chosen_cell_decides_is_not_asked_for_beside_it(order, message):
+    foot = foot_from_dimensions("a", length=0.2, width=0.083, corner_radius=0.01, mass=33.0)
+    with pytest.raises(InputError, match=message):
+        build_ordered(foot, order, ShoeParameters())
