@@ -22,7 +22,7 @@ from plantar.shoes.units import MM_PER_M, to_m
 TAXELS = 42  # taxels of the papers' soles, which a smaller sole has, too: what they measure depends on their number
 
 _THRESHOLD = 0.146  # of the mean load of a taxel of a standing robot: 0.15 kg of the papers' 86 kg over two soles of 42
-_SMALLER = 0.72  # of an area, that is tried next
+_SMALLER = 0.72  # of an area, that is tried next: 0.85 of a taxel's width
 _AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the papers have
 
 
@@ -76,8 +76,8 @@ def shoe_for_surface(
         FootError: If taxels do not fit.
     """
     foot = replace(_foot(name, triangles), mass=mass)
-    area = _observing_area(foot)
-    build = _adapted(build_shoe(foot, cell_area=area, layout_only=True), mass)
+    area, layouts = _observing_layouts(foot)
+    build = _adapted(layouts, mass)
     weight = None
     notes = build.notes
     if solid:
@@ -99,21 +99,22 @@ def shoe_for_surface(
     return FoundShoes(to_m(build.parameters.thickness), weight, found)
 
 
-def _observing_area(foot: Foot) -> float:
-    """Area of simulated taxels in mm^2: `taxel_area`, or less where these would not see the center of pressure."""
-    wanted = taxel_area(foot.sole.area)
-    area = wanted
-    problem = None
-    while area >= _AREAS[0]:
+def _observing_layouts(foot: Foot) -> tuple[float, ShoeBuild]:
+    """Area in mm^2 and layouts of simulated taxels: `taxel_area`, or less where these would not see the center of
+    pressure.
+    """
+    area = taxel_area(foot.sole.area)
+    while True:
+        smaller = round(_SMALLER * area)
         try:
-            if observability(build_shoe(foot, cell_area=area, layout_only=True).shoes[0].plan).holds:
-                return area
-        except FootError as error:
-            problem = error
-        area = round(_SMALLER * area)
-    if problem is not None:
-        raise problem
-    return wanted
+            build = build_shoe(foot, cell_area=area, layout_only=True)
+        except FootError:
+            if smaller < _AREAS[0]:
+                raise
+        else:
+            if smaller < _AREAS[0] or observability(build.shoes[0].plan).holds:
+                return area, build
+        area = smaller
 
 
 def _adapted(build: ShoeBuild, mass: float) -> ShoeBuild:
