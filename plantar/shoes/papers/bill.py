@@ -7,11 +7,12 @@ import numpy as np
 
 from plantar.common.table_writer import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
+from plantar.shoes.cells.cell import Cell
 from plantar.shoes.checks.printability import BOARD_UP, Weights
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import tail_lines
 from plantar.shoes.plan.shoe_plan import ShoePlan
-from plantar.shoes.plan.wiring import channel_lines, length_of, wire_lines
+from plantar.shoes.plan.wiring import cable_ways
 from plantar.shoes.wiring.nets import Wiring
 
 WINDOW = 5.0  # diameter in mm of a hole in the pad through which a taxel's infrared sensor looks
@@ -70,13 +71,13 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights, wiring: Wiring
         rows, columns = plan.sheet_lines
         note = f"{rows} rows x {columns} columns, tail of {tail_lines(plan)} lines; outline in cells_{side}.dxf"
         size = f"{cell.thickness:g} mm thick, cut to layer OUTLINE of cells_{side}.dxf"
-        bought = (f"{cell.maker} {cell.part}".strip(), cell.data_sheet)
-        parts.append(Part(f"sheet {cell.label}", 1, "sensor sheet", size, weights.skin, note, *bought))
+        parts.append(Part(f"sheet {cell.label}", 1, "sensor sheet", size, weights.skin, note, *_ordered(cell)))
     else:
         across = " x ".join(f"{v:g}" for v in dict.fromkeys(np.round(cell.body, 2).tolist()))
         size = f"{across} mm" + (f" x {cell.thickness:g} mm" if cell.thickness else "")
-        bought = (f"{cell.maker} {cell.part}".strip(), cell.data_sheet)
-        parts.append(Part(f"cell {cell.label}", len(shoe.layout), cell.shape, size, weights.skin, note, *bought))
+        parts.append(
+            Part(f"cell {cell.label}", len(shoe.layout), cell.shape, size, weights.skin, note, *_ordered(cell))
+        )
     if plan.heel.board:
         size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
         note = "slides into the rails behind the heel"
@@ -95,6 +96,11 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights, wiring: Wiring
     return parts
 
 
+def _ordered(cell: Cell) -> tuple[str, str]:
+    """What to ask a shop for a cell, and the address of its data sheet."""
+    return f"{cell.maker} {cell.part}".strip(), cell.data_sheet
+
+
 def _pad_order(side: str, p: ShoeParameters) -> str:
     if p.pad_kind == "plate":
         return f"print of pad_{side}.stl in {p.material}"
@@ -109,15 +115,7 @@ def _window(plan: ShoePlan) -> str:
 
 
 def _cable(plan: ShoePlan, p: ShoeParameters) -> float:
-    wires = wire_lines(plan)
-    pockets = np.array([q.centroid.coords[0] for q in plan.pockets])
-    ways = dict[int, float]()
-    for connector, line in zip(plan.connectors, channel_lines(plan, p), strict=True):
-        before = min(ways, key=lambda i: math.dist(pockets[i], line[-1]), default=connector)
-        ways[connector] = length_of(line) + ways.get(before, 0.0)
-        for i, j in plan.route:  # a tree, from the connectors outwards
-            if i in ways and j not in ways:
-                ways[j] = ways[i] + length_of(wires[j])
+    ways = cable_ways(plan, p)
     return max(ways[c] for c in plan.connectors) + (p.thickness - p.bottom + BOARD_UP if plan.heel.board else 0.0)
 
 
@@ -135,19 +133,11 @@ def _holding(build: ShoeBuild, width: float) -> list[Part]:
     if retention.kind == "screws":
         size = f"M{retention.width:g} x {p.rim_thickness + 2.0 * retention.width:.0f} mm, soft tip"
         count = len(retention.places)
+        note = "through the wall, clamps the foot's sides"
+        thread = f"M{retention.width:g}"
         return [
-            Part(
-                "set screw", count, "steel", size, None, "through the wall, clamps the foot's sides", f"DIN 913 {size}"
-            ),
-            Part(
-                "nut",
-                count,
-                "steel",
-                f"M{retention.width:g}",
-                None,
-                "in the slot of the boss",
-                f"ISO 4032 M{retention.width:g}",
-            ),
+            Part("set screw", count, "steel", size, None, note, f"DIN 913 {size}"),
+            Part("nut", count, "steel", thread, None, "in the slot of the boss", f"ISO 4032 {thread}"),
         ]
     return []
 

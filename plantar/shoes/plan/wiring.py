@@ -18,6 +18,7 @@ _BARB = 0.1  # mm
 _STEP = 0.01  # mm between two corners that are one
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
+_SLACK = 200.0  # mm of each lead beyond the heel's board, to the read-out on the shank
 _SHARP = 0.14  # of a width squared: what its bevel takes of a corner of 87 degrees, so ends at a right angle stay
 
 
@@ -110,31 +111,30 @@ def length_of(line: NDArray[np.float64]) -> float:
     return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
-_SLACK = 200.0  # mm of each lead beyond the heel's board, to the read-out on the shank
+def cable_ways(plan: ShoePlan, parameters: ShoeParameters) -> dict[int, float]:
+    """Gives length in mm of the way from each wired cell of a plan to the end of the channel at the heel, by
+    parameters: by the route to its patch's connector, and by the channel.
+    """
+    wires = wire_lines(plan)
+    ways = dict[int, float]()
+    for connector, line in zip(plan.connectors, channel_lines(plan, parameters), strict=True):
+        # a later patch's channel ends at a cell of an earlier one
+        ends = {i: math.dist(plan.cells[i].centroid.coords[0], line[-1]) for i in ways}
+        before = min(ends, key=lambda i: ends[i], default=connector)
+        ways[connector] = length_of(line) + ways.get(before, 0.0)
+        for i, j in plan.route:  # a tree, from the connectors outwards
+            if i in ways and j not in ways:
+                ways[j] = ways[i] + length_of(wires[j])
+    return ways
 
 
 def lead_lengths(plan: ShoePlan, parameters: ShoeParameters) -> list[float]:
-    """Gives length in mm of each cell's own lead, by plan and parameters: by the route to its patch's connector, by the
-    channel, up behind the heel, and on to the read-out.
+    """Gives length in mm of each cell's own lead, by plan and parameters: its way to the heel, up behind it, and on to
+    the read-out.
     """
-    wires = wire_lines(plan)
-    channels = channel_lines(plan, parameters)
+    ways = cable_ways(plan, parameters)
     rise = parameters.thickness - parameters.bottom + _SLACK
-    lengths = dict[int, float]()
-    for connector, line in zip(plan.connectors, channels, strict=True):
-        # a later patch's channel ends at a cell of an earlier one
-        ends = {i: math.dist(wire_end(plan, i), line[-1]) for i in lengths}
-        before = min(ends, key=lambda i: ends[i], default=None)
-        lengths[connector] = length_of(line) + (rise if before is None else lengths[before])
-        for i, j in plan.route:  # a tree, from the connectors outwards
-            if i in lengths and j not in lengths:
-                lengths[j] = lengths[i] + length_of(wires[j])
-    return [lengths[k] for k in range(len(plan.cells))]
-
-
-def wire_end(plan: ShoePlan, cell: int) -> NDArray[np.float64]:
-    """Middle (2,) in mm of a plan's cell."""
-    return np.array(plan.cells[cell].centroid.coords[0])
+    return [ways[k] + rise for k in range(len(plan.cells))]
 
 
 def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
