@@ -25,7 +25,7 @@ from plantar.errors import FormatError, LayoutError, PlantarError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.field_names import heading_of
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.grid_file import opened_array
+from plantar.formats.grid_file import opened_array, read_header
 from plantar.formats.side import on_one_time, side_of
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
 from plantar.formats.table_text import time_unit
@@ -177,11 +177,7 @@ def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
 
 def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) -> _Array:
     with opened() as stream:
-        version = np.lib.format.read_magic(stream)
-        if version not in ((1, 0), (2, 0)):
-            raise ValueError(f"version {version[0]}.{version[1]} of numpy's format")
-        header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        shape, by_columns, dtype = header(stream)
+        shape, by_columns, dtype = read_header(stream)
         held = size - stream.tell()
     if dtype.hasobject:
         raise ValueError(f"array {name!r} holds Python objects, which are not unpickled")
@@ -212,7 +208,7 @@ def _large_frames(array: _Array, opened: Callable[[], IO[bytes]]) -> NDArray[np.
     out = room(array.shape[0], array.size // max(1, array.shape[0]))
     filled = 0
     with opened() as stream:
-        for block in opened_array(stream, array.shape, array.dtype).blocks(_PIECE):
+        for block in opened_array(stream).blocks(_PIECE):
             part = block.reshape(len(block), -1).astype(float)
             part[np.isinf(part)] = np.nan
             out[filled : filled + len(part)] = part

@@ -1,5 +1,6 @@
 """NPZ and NPY files of one array that is read piece by piece: footsteps or frames of a walkway, of any size."""
 
+import io
 import math
 import os
 import tokenize
@@ -48,14 +49,18 @@ def head_of_array(head: bytes) -> ArrayHead | None:
     return _head(data[:_HEADER])
 
 
-def _head(data: bytes) -> ArrayHead | None:
-    import io
+def read_header(stream: IO[bytes]) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+    """Read numpy's header at the begin of a stream: shape, whether by columns, and type; ValueError if it is none."""
+    version = np.lib.format.read_magic(stream)
+    if version not in ((1, 0), (2, 0)):
+        raise ValueError(f"version {version[0]}.{version[1]} of numpy's format")
+    reader = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    return reader(stream)
 
-    stream = io.BytesIO(data)
+
+def _head(data: bytes) -> ArrayHead | None:
     try:
-        version = np.lib.format.read_magic(stream)
-        reader = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        shape, fortran, dtype = reader(stream)
+        shape, fortran, dtype = read_header(io.BytesIO(data))
     except (ValueError, EOFError, SyntaxError, tokenize.TokenError):  # numpy reads old headers as Python's text
         return None
     return ArrayHead(shape, dtype) if not fortran and dtype.kind in "iufb" and shape else None
@@ -83,11 +88,9 @@ class GridArray:
             left -= rows
 
 
-def opened_array(stream: IO[bytes], shape: tuple[int, ...], dtype: np.dtype[Any]) -> GridArray:
-    """Array of a stream at the begin of numpy's format, whose header is known to state a shape and type by rows."""
-    version = np.lib.format.read_magic(stream)
-    reader = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    reader(stream)
+def opened_array(stream: IO[bytes]) -> GridArray:
+    """Array of a stream at the begin of numpy's format, whose header is known to state numbers by rows."""
+    shape, _, dtype = read_header(stream)
     return GridArray(stream, ArrayHead(shape, dtype))
 
 
@@ -113,9 +116,7 @@ def open_grid(path: str | os.PathLike[str]) -> Iterator[GridArray]:
 
 
 def _opened(stream: IO[bytes], size: int, path: Path) -> GridArray:
-    version = np.lib.format.read_magic(stream)
-    reader = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    shape, fortran, dtype = reader(stream)
+    shape, fortran, dtype = read_header(stream)
     if fortran or dtype.hasobject or dtype.kind not in "iufb":
         raise FormatError(f"{path}: an array of {dtype}{' by columns' if fortran else ''}; allowed: numbers by rows")
     if min(shape, default=0) < 0 or math.prod(shape) * dtype.itemsize > min(LARGEST, size):
