@@ -411,20 +411,9 @@ def _rows_of(comparison: Comparison) -> list[dict[str, Any]]:
     ]
 
 
-def _names(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    names: dict[str, None] = {}
-    for row in rows:
-        if not names.keys() >= row.keys():
-            ends = [n for n in _PROVENANCE if n in names]
-            kept = [n for n in names if n not in ends]
-            names = dict.fromkeys([*kept, *(n for n in row if n not in names and n not in ends), *ends])
-            names |= dict.fromkeys(row)
-    return list(names)
-
-
 def _columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, NDArray[Any]]:
     out: dict[str, NDArray[Any]] = {}
-    for name in _names(rows):
+    for name in columns_of(rows, _PROVENANCE):
         values = [row.get(name) for row in rows]
         texts = any(isinstance(v, str) for v in values)
         out[name] = np.array([("" if v is None else v) if texts else math.nan if v is None else v for v in values])
@@ -458,7 +447,7 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
     written: list[Path] = []
     tables = study.tables()
     for name, rows in tables.items():
-        names = _names(rows)
+        names = columns_of(rows, _PROVENANCE)
         written.append(write_text(target / f"{name}.csv", csv_text(names, mapping_rows(names, rows))))
     columns = study.step_columns()
     if study.plan.parquet:
@@ -468,7 +457,7 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
         written.append(write_csv(target / "steps.csv", columns, study.step_rows()))
     if study.plan.workbook:
         steps = {"steps": (columns, list(islice(study.step_rows(), MOST_ROWS)))}
-        sheets = steps | {name: (_names(rows), rows) for name, rows in tables.items()}
+        sheets = steps | {name: (columns_of(rows, _PROVENANCE), rows) for name, rows in tables.items()}
         written.append(write_workbook(target / "study.xlsx", sheets))
     if study.comparisons:
         written.append(write_text(target / "paper.md", paper_text(study.comparisons)))
