@@ -4,7 +4,7 @@ Toes begin at a gap, or pressure valley, in front of the metatarsal heads. The t
 its forefoot into width thirds; the hallux is the medial part of the toes.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -101,7 +101,7 @@ def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.in
 
     Else toes begin at 82 % of the length in m `of_sole` from the origin; None for no toes.
     """
-    u, v = print_.centres.T
+    u = print_.centres[:, 0]
     toe = print_.is_toe
     if print_.toe_line is None and of_sole is not None:
         toe = u > _TOES_OF_SOLE * of_sole
@@ -114,10 +114,16 @@ def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.in
         (toe, ("toes", "hallux"), (1.0 - _HALLUX,)),
     ):
         if cells.any():
-            low, high = (float(pick(end[cells, 1])) for pick, end in zip((np.min, np.max), print_.ends, strict=True))
-            index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
-            out[cells] = np.array([list(REGIONS).index(name) for name in names])[index]
+            out[cells] = np.array([list(REGIONS).index(name) for name in names])[_parts_across(print_, cells, shares)]
     return out
+
+
+def _parts_across(print_: Footprint, cells: NDArray[np.bool_], shares: Sequence[float]) -> NDArray[np.int64]:
+    """Part from the lateral edge, from 0, in which each chosen cell lies: cells' width is parted at shares of it."""
+    first, last = (end[cells, 1] for end in print_.ends)
+    low = float(first.min())
+    high = float(last.max())
+    return np.asarray(np.searchsorted(low + np.array(shares) * (high - low), print_.centres[cells, 1]))
 
 
 def ten_regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.int64]:
@@ -125,7 +131,7 @@ def ten_regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[n
 
     The heel is halved at the middle of its width.
     """
-    u, v = print_.centres.T
+    u = print_.centres[:, 0]
     toe = print_.is_toe
     if print_.toe_line is None and of_sole is not None:
         toe = u > _TOES_OF_SOLE * of_sole
@@ -143,7 +149,5 @@ def ten_regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[n
         (toe, ("toes", "hallux"), (1.0 - _HALLUX,)),
     ):
         if cells.any():
-            low, high = (float(pick(end[cells, 1])) for pick, end in zip((np.min, np.max), print_.ends, strict=True))
-            index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
-            out[cells] = np.array([names.index(name) for name in first])[index]
+            out[cells] = np.array([names.index(name) for name in first])[_parts_across(print_, cells, shares)]
     return out
