@@ -53,6 +53,11 @@ def bouts_of(day: DaySeconds, feet: int) -> list[Bout]:
     return sorted(out, key=lambda bout: bout.begin)
 
 
+def walks_of(bouts: Sequence[Bout]) -> list[Bout]:
+    """Bouts of walking among all bouts."""
+    return [bout for bout in bouts if bout.activity == "walking"]
+
+
 def walking_bouts(steps: Sequence[Footfall], feet: int) -> list[Bout]:
     """Returns bouts of two strides of each foot or more without a pause.
 

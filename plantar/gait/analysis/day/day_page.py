@@ -32,13 +32,12 @@ _IN_WORDS = {
 def write_day(day: Day, masks: Masks, folder: Path, title: str, figures: bool = True) -> list[str]:
     """Write day.json, bouts.csv, hours.csv and, with figures, day.html with its figure; returns the paths."""
     with output_folder(folder) as target:
-        summary = json.dumps(summary_of(day), indent=1, allow_nan=False)
-        write_text(target / "day.json", summary + "\n")
+        summary = summary_of(day)
+        write_text(target / "day.json", json.dumps(summary, indent=1, allow_nan=False) + "\n")
         bouts = [[b.activity, day.at(b.begin), b.begin, b.end, b.lasts, b.steps, b.cadence] for b in day.bouts]
         names = ["activity", "clock", "begin_s", "end_s", "duration_s", "steps", "cadence_steps_per_min"]
         write_text(target / "bouts.csv", csv_text(names, bouts))
-        rows = summary_of(day)["hours"]
-        flat = [_flat(hour) for hour in rows]
+        flat = [_flat(hour) for hour in summary["hours"]]
         columns = list(dict.fromkeys(name for hour in flat for name in hour))
         write_text(target / "hours.csv", csv_text(columns, [[hour.get(name) for name in columns] for hour in flat]))
         if figures:
@@ -52,15 +51,14 @@ def write_day(day: Day, masks: Masks, folder: Path, title: str, figures: bool = 
 
 def summary_of(day: Day) -> dict[str, Any]:
     """A day as plain values of day.json."""
-    walks = [bout for bout in day.bouts if bout.activity == "walking"]
     return {
         "clock": None if day.clock is None else day.clock.isoformat(),
         "duration_s": day.end - day.begin,
         "weight_N": day.weight_N,
         "steps": day.steps,
         "seconds": {name: day.seconds(name) for name in ACTIVITIES},
-        "walks": len(walks),
-        "longest_walk_s": max((bout.lasts for bout in walks), default=0.0),
+        "walks": len(day.walks),
+        "longest_walk_s": max((bout.lasts for bout in day.walks), default=0.0),
         "best_cadence_1_min": day.cadence_1,
         "best_cadence_30_min": day.cadence_30,
         "hours": [
@@ -105,7 +103,7 @@ def day_page(day: Day, masks: Masks, figures: Sequence[tuple[Path, str]], title:
 
 
 def _words(day: Day) -> str:
-    walks = [bout for bout in day.bouts if bout.activity == "walking"]
+    walks = day.walks
     measured = sum(day.seconds(name) for name in ACTIVITIES[:-1]) or 1.0
     shares = {name: 100.0 * day.seconds(name) / measured for name in ACTIVITIES[:-1]}
     parts = [f"<p><strong>{day.steps:,} steps</strong> in {len(walks)} walks".replace(",", "\u202f")]
@@ -164,7 +162,7 @@ def _regions(day: Day, masks: Masks) -> str:
 
 
 def _walks(day: Day) -> str:
-    walks = sorted((b for b in day.bouts if b.activity == "walking"), key=lambda b: -b.lasts)[:_LISTED]
+    walks = sorted(day.walks, key=lambda b: -b.lasts)[:_LISTED]
     rows = [
         row(day.at(b.begin), [hours_and_minutes(b.lasts), str(b.steps), number(b.cadence)])
         for b in sorted(walks, key=lambda b: b.begin)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import Side
 from plantar.errors import InputError
-from plantar.gait.analysis.day.bouts import ACTIVITIES, Bout, bouts_of
+from plantar.gait.analysis.day.bouts import ACTIVITIES, Bout, bouts_of, walks_of
 from plantar.gait.analysis.day.seconds import DaySeconds, seconds_of_day, weight_of
 from plantar.gait.analysis.masks import SEVEN_MASKS, Masks
 from plantar.gait.analysis.options import AnalysisOptions
@@ -64,6 +64,11 @@ class Day:
     cadence_1: float
     cadence_30: float | None
     notes: Sequence[str]
+
+    @property
+    def walks(self) -> list[Bout]:
+        """Bouts of walking."""
+        return walks_of(self.bouts)
 
     @property
     def steps(self) -> int:
@@ -120,15 +125,15 @@ def measure_day(
         notes.append("one foot was measured: steps count twice, and standing on the other foot looks like sitting")
     if clock is None:
         notes.append("no clock is known: times are since the begin (--clock)")
-    per_minute = _per_minute(bouts, day, len(recording.feet))
-    best = np.sort(per_minute)[::-1]
+    strikes = _strikes(bouts, day)
+    best = np.sort(_per_minute(strikes, day, len(recording.feet)))[::-1]
     return Day(
         clock=clock,
         weight_N=day.weight,
         begin=day.begin,
         end=float(recording.time[-1]),
         bouts=bouts,
-        hours=_hours(day, bouts, clock, names),
+        hours=_hours(day, bouts, strikes, clock, names),
         cadence_1=float(best[0]) if len(best) else 0.0,
         cadence_30=float(best[:_BEST].mean()) if len(best) >= _BEST else None,
         notes=tuple(dict.fromkeys(notes)),
@@ -139,7 +144,7 @@ def _regions(
     recording: PressureRecording, bouts: Sequence[Bout], masks: Masks, notes: list[str]
 ) -> dict[Side, NDArray[np.int64]]:
     """Region (k,) of each foot's cells by the longest walk; empty without one, or without geometry."""
-    walks = [bout for bout in bouts if bout.activity == "walking"]
+    walks = walks_of(bouts)
     if not walks or any(foot.layout is None for foot in recording.feet.values()):
         notes.append("no walk, or no cells with places: load is given of the whole foot alone")
         return {}
@@ -159,23 +164,27 @@ def _part(foot: FootRecording, frames: slice) -> FootRecording:
 
 def _strikes(bouts: Sequence[Bout], day: DaySeconds) -> NDArray[np.float64]:
     """Heel strikes in s of all steps in bouts of walking."""
-    walks = [bout for bout in bouts if bout.activity == "walking"]
     strikes = np.array([step.strike for step in day.steps])
     inside = np.zeros(len(strikes), dtype=bool)
-    for bout in walks:
+    for bout in walks_of(bouts):
         inside |= (strikes >= bout.begin) & (strikes <= bout.end)
     return strikes[inside]
 
 
-def _per_minute(bouts: Sequence[Bout], day: DaySeconds, feet: int) -> NDArray[np.float64]:
-    """Steps in each minute from the begin, of bouts of walking."""
+def _per_minute(strikes: NDArray[np.float64], day: DaySeconds, feet: int) -> NDArray[np.float64]:
+    """Steps in each minute from the begin, by their heel strikes."""
     minutes = len(day.load) // 60
-    minute = ((_strikes(bouts, day) - day.begin) // 60).astype(np.int64)
+    minute = ((strikes - day.begin) // 60).astype(np.int64)
     return np.bincount(minute[minute < minutes], minlength=minutes) * 2.0 / feet
 
 
-def _hours(day: DaySeconds, bouts: Sequence[Bout], clock: datetime | None, names: Sequence[str]) -> list[Hour]:
-    strikes = _strikes(bouts, day)
+def _hours(
+    day: DaySeconds,
+    bouts: Sequence[Bout],
+    strikes: NDArray[np.float64],
+    clock: datetime | None,
+    names: Sequence[str],
+) -> list[Hour]:
     into = 0.0 if clock is None else clock.minute * 60.0 + clock.second + 1e-6 * clock.microsecond
     total = len(day.load)
     edges = sorted({0, *(k for k in np.arange(3600.0 - into, total, 3600.0).astype(int).tolist() if k > 0), total})
