@@ -14,7 +14,7 @@ the last of which takes a fifth off the pressure under the left heel and is walk
 
 import csv
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -29,6 +29,7 @@ from plantar.bench.tables import made_on, markdown_table, write_rows
 from plantar.gait.analysis.study.designs import Design, compare_levels
 from plantar.gait.analysis.study.one_against_group import deviation_of
 from plantar.gait.analysis.study.run_study import Study, run_study
+from plantar.gait.analysis.study.statistics import Effect
 from plantar.gait.analysis.study.study_options import StudyOptions
 
 FOLDER = Path(__file__).parent
@@ -43,14 +44,20 @@ PERMUTATIONS = 100
 
 GROUP = 39  # people of a group that one is compared with: 2 / (39 + 1) is 5 %
 _GRID = (36, 14)
+# Shape of measures, curves and maps, and how wide curves and maps are smoothed, in their places; measures are mixed.
+_KINDS: tuple[tuple[tuple[int, ...], tuple[float, ...]], ...] = (
+    ((MEASURES,), ()),
+    ((101,), (6.0,)),
+    (_GRID, (3.0, 2.0)),
+)
 _LEFT_HEEL = 0.8
 _FASTER = 0.94  # times the step time in the condition with the effect
 
 
 class Draw(NamedTuple):
-    """Rows of means (r, k) of measures, curves and maps, and their design."""
+    """Rows of means (r, k) of three kinds, which are measures, curves and maps, and their design."""
 
-    values: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+    values: Sequence[NDArray[np.float64]]
     design: Design
 
 
@@ -58,13 +65,13 @@ def steps_to_means(random: np.random.Generator, rows: int, people: NDArray[np.in
     """Means of rows, one for each person and condition: of people, conditions, trials, and skewed steps."""
     mixing = random.normal(size=(MEASURES, MEASURES))
     kinds = []
-    for kind in range(3):
-        shape = (MEASURES,) if kind == 0 else (101,) if kind == 1 else _GRID
-        wide = (0.0,) if kind == 0 else (6.0,) if kind == 1 else (3.0, 2.0)
+    for shape, wide in _KINDS:
 
-        def noise(count: tuple[int, ...], shape: tuple[int, ...] = shape, wide: tuple[float, ...] = wide) -> NDArray:
+        def noise(
+            count: tuple[int, ...], shape: tuple[int, ...] = shape, wide: tuple[float, ...] = wide
+        ) -> NDArray[np.float64]:
             raw = random.normal(size=(*count, *shape))
-            return raw if len(shape) == 1 and shape[0] == MEASURES else _smooth(raw, wide)
+            return _smooth(raw, wide) if wide else raw
 
         person = own * noise((int(people.max()) + 1,))[people]
         condition = 0.5 * noise((rows,))
@@ -73,14 +80,14 @@ def steps_to_means(random: np.random.Generator, rows: int, people: NDArray[np.in
         step = random.exponential(size=(rows, TRIALS * STEPS, *((1,) * len(shape)))) - 1.0
         steps = (step * noise((rows, 1))).mean(axis=1)
         value = (person + condition + trial + steps).reshape(rows, -1)
-        kinds.append(value @ mixing if kind == 0 else value)
+        kinds.append(value if wide else value @ mixing)
     level = np.zeros(rows, dtype=np.int64)
-    return Draw((kinds[0], kinds[1], kinds[2]), Design(people, level, np.zeros((rows, 0)), within=True))
+    return Draw(kinds, Design(people, level, np.zeros((rows, 0)), within=True))
 
 
 def _smooth(values: NDArray[np.float64], wide: tuple[float, ...]) -> NDArray[np.float64]:
-    smooth = gaussian_filter(values, (*((0.0,) * (values.ndim - len(wide))), *wide))
-    return smooth / smooth.std()
+    smooth: NDArray[np.float64] = gaussian_filter(values, (*((0.0,) * (values.ndim - len(wide))), *wide))
+    return np.asarray(smooth / smooth.std())
 
 
 def conditions(random: np.random.Generator, levels: int, covariate: bool = False) -> Draw:
@@ -90,7 +97,7 @@ def conditions(random: np.random.Generator, levels: int, covariate: bool = False
     values = draw.values
     if covariate:  # a speed that differs between conditions and moves all values
         speed = random.normal(size=(len(people), 1)) + 0.8 * level[:, None]
-        values = tuple(own + 0.7 * speed * random.normal(size=own.shape[1]) for own in values)  # type: ignore[assignment]
+        values = [own + 0.7 * speed * random.normal(size=own.shape[1]) for own in values]
         known = speed
     return Draw(values, Design(people, level, known, within=True))
 
@@ -105,9 +112,9 @@ def changes(random: np.random.Generator) -> Draw:
     """Change between two conditions of each person, compared between two groups: their interaction."""
     people, level = np.divmod(np.arange(4 * PEOPLE), 2)
     draw = steps_to_means(random, len(people), people)
-    values = tuple(own[level == 1] - own[level == 0] for own in draw.values)
+    values = [own[level == 1] - own[level == 0] for own in draw.values]
     who = np.arange(2 * PEOPLE)
-    return Draw(values, Design(who, who % 2, np.zeros((len(who), 0)), within=False))  # type: ignore[arg-type]
+    return Draw(values, Design(who, who % 2, np.zeros((len(who), 0)), within=False))
 
 
 def found(draw: Draw) -> list[bool]:
@@ -172,8 +179,8 @@ def planted_rows(study: Study) -> list[tuple[str, str, str]]:
     return rows
 
 
-def _found_regions(effects: object) -> str:
-    known = [key for key, effect in effects.items() if effect.p_all <= 0.05]  # type: ignore[attr-defined]
+def _found_regions(effects: Mapping[str, Effect]) -> str:
+    known = [key for key, effect in effects.items() if effect.p_all <= 0.05]
     return ", ".join(dict.fromkeys(key.partition(".")[0] if "." in key else "foot" for key in known)) or "none"
 
 

@@ -14,13 +14,15 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import numpy as np
 from made_walkway import MadeStep, made_walk, metadata_of, trial_of, upright, walker, write_stack
+from numpy.typing import NDArray
 
 from plantar.bench.tables import made_on, markdown_table
 from plantar.formats.format import ReadOptions
@@ -88,20 +90,10 @@ def killed(folder: Path, out: Path, whole: Path) -> tuple[int, int, bool]:
     """Kills of a study, recordings that were kept at the last one, and whether its table is that of a whole run."""
     kills = 0
     for kept in (3, 9):
-        command = [
-            sys.executable,
-            "-m",
-            "plantar",
-            "analyze",
-            str(folder),
-            "--no-figures",
-            "-o",
-            str(out),
-            "--jobs",
-            "2",
-        ]
+        command = [sys.executable, "-m", "plantar", "analyze", str(folder)]
+        command += ["--no-figures", "-o", str(out), "--jobs", "2"]
         run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-        while len(list((out / "measured").glob("*.npz"))) < kept if out.exists() else True:
+        while not out.exists() or len(list((out / "measured").glob("*.npz"))) < kept:
             time.sleep(0.01)
         os.killpg(run.pid, signal.SIGKILL)
         run.wait()
@@ -113,26 +105,31 @@ def killed(folder: Path, out: Path, whole: Path) -> tuple[int, int, bool]:
 
 def walk_rows(folder: Path) -> list[tuple[object, ...]]:
     """Rows of walkways: processor time of inflating by numpy, and of measuring with and without the table."""
-    rows = []
+    rows: list[tuple[object, ...]] = []
     for number in range(WALKS):
         random = np.random.default_rng(100 + number)
         steps = made_walk(walker(random), FRAMES, random)
         path = folder / f"walk{number}" / "trial.npz"
         path.parent.mkdir()
         np.savez_compressed(path, trial_of(steps, FRAMES))
-        times = [_spent(lambda path=path: np.load(path)["arr_0"])]
-        times.append(_spent(lambda path=path: measure_walkway(path, ReadOptions(), AnalysisOptions(), GRID)))
+        measure = partial(measure_walkway, path, ReadOptions(), AnalysisOptions(), GRID)
+        times = [_spent(partial(_inflated, path)), _spent(measure)]
         turns = [upright(step)[1] for step in steps]
         (path.parent / "metadata.csv").write_text(metadata_of(steps, turns, number, "BF", "W1"))
-        times.append(_spent(lambda path=path: measure_walkway(path, ReadOptions(), AnalysisOptions(), GRID)))
+        times.append(_spent(measure))
         rows.append((len(steps), *times, times[1] / times[0], times[2] / times[0]))
         path.unlink()
     return rows
 
 
-def _spent(work: object) -> float:
+def _inflated(path: Path) -> NDArray[np.uint8]:
+    values: NDArray[np.uint8] = np.load(path)["arr_0"]
+    return values
+
+
+def _spent(work: Callable[[], object]) -> float:
     begun = time.process_time()
-    work()  # type: ignore[operator]
+    work()
     return time.process_time() - begun
 
 
