@@ -1,7 +1,7 @@
 """What runs tasks, as futures."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +11,9 @@ from plantar.errors import PlantarError
 Task = Any
 Row = Any
 """What a task is, which is hashable, and what comes of it: both are sent to other processes."""
+
+_PAUSE = 0.2  # s: how soon a signal is seen where no row comes
+_END = object()
 
 TRIES = 3
 """How often a task is begun before its row reports that its workers died."""
@@ -41,6 +44,28 @@ class Workers(ABC):
     def room(self) -> int:
         """How many more tasks can be taken."""
         return self._capacity() - len(self._running)
+
+    def rows(
+        self, tasks: Iterator[Task | None], stopped: Callable[[], bool] = lambda: False
+    ) -> Iterator[tuple[Task, Row]]:
+        """Yields tasks and rows as they end, until there are none or `stopped`.
+
+        `tasks`: in the order they begin, each asked for when there is room; None while the next depends on rows to
+        come. Errors as of `finished`.
+        """
+        more = True
+        while not stopped():
+            while more and self.room > 0:
+                task = next(tasks, _END)
+                if task is None:
+                    break
+                if task is _END:
+                    more = False
+                else:
+                    self.submit(task)
+            if not self._running and self._error is None:
+                return
+            yield from self.finished(_PAUSE)
 
     def submit(self, task: Task) -> None:
         """Begin a task."""

@@ -11,19 +11,16 @@ from typing import Any
 
 from plantar.common.workers.cluster_workers import ClusterWorkers
 from plantar.common.workers.local_workers import LocalWorkers
-from plantar.common.workers.workers import Workers
 from plantar.errors import InputError, WorkerError
 from plantar.plotting import save_figure
 from plantar.sim.sweep.figures import figures_of
 from plantar.sim.sweep.inputs import inputs_of
 from plantar.sim.sweep.plan import Key, Plan, Rows, key_of
 from plantar.sim.sweep.results import open_results
-from plantar.sim.sweep.task import JOB, Row, Task, columns_of
+from plantar.sim.sweep.task import JOB, Task, columns_of
 
 Progress = Callable[[float, str], None]
 _SIGNALS = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
-_PAUSE = 0.2  # s: how soon a signal is seen where no row comes
-_END = "end"
 
 
 class SweepStopped(KeyboardInterrupt):
@@ -93,7 +90,7 @@ def run_sweep(
         before = len(table.rows)
         tasks = _Tasks(plan, inputs, table.rows)
         try:
-            for task, row in _rows_of(iter(tasks), pool, note):
+            for task, row in pool.rows(iter(tasks), lambda: note.number != 0):
                 values, seed = tasks.keys[task]
                 table.append({**dict(zip(checked.axes, values, strict=True)), "seed": seed, **row})
                 if progress is not None:
@@ -139,25 +136,6 @@ class _Tasks:
             task = Task(_anywhere(checked.scene), _anywhere(robot), (*checked.settings, *point), seed, inputs)
             self.keys[task] = key_of(*run)
             yield task
-
-
-def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
-    running = 0
-    more = True
-    while not note.number:
-        while more and pool.room > 0:
-            task = next(tasks, _END)
-            if isinstance(task, Task):
-                pool.submit(task)
-                running += 1
-            else:
-                more = task is None
-                break
-        if not running:
-            return
-        for task, row in pool.finished(_PAUSE):
-            running -= 1
-            yield task, row
 
 
 def _anywhere(name: str) -> str:

@@ -4,7 +4,6 @@ import json
 import math
 import os
 import tempfile
-from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
@@ -58,7 +57,6 @@ from plantar.gait.analysis.study.workbook import MOST_ROWS, write_workbook
 
 _CACHE = "measured"  # Folder in the output folder that holds the result of each recording
 _SKIPPED_FORMATS = ("image",)
-_PAUSE = 0.2  # s: how soon a signal is seen where no result comes
 _PROVENANCE = ("format", "version", "options", "sha256")  # columns at the end of tables
 _ALWAYS = ("recordings", "comparison")  # Tables that are written without rows, too
 
@@ -327,22 +325,11 @@ def _measured(tasks: Sequence[_Measurement], plan: StudyOptions) -> Iterator[tup
     if plan.jobs == 1 and plan.scheduler is None:
         yield from ((task, _result(task)) for task in tasks)
         return
-    job = Job(_result, _dead)
+    job = Job(_result, failed=str)
     pool = LocalWorkers(plan.jobs, job) if plan.scheduler is None else ClusterWorkers(plan.scheduler, job)
     with closing(pool):
-        left = deque(tasks)
-        running = 0
-        while left or running:
-            while left and pool.room > 0:
-                pool.submit(left.popleft())
-                running += 1
-            for task, result in pool.finished(_PAUSE):
-                running -= 1
-                yield task, result if isinstance(result, RecordingResult) else _failed(task, result)
-
-
-def _dead(reason: str) -> str:
-    return reason
+        for task, result in pool.rows(iter(tasks)):
+            yield task, result if isinstance(result, RecordingResult) else _failed(task, result)
 
 
 def _failed(task: _Measurement, reason: str) -> RecordingResult:
