@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
-from itertools import combinations, islice
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +53,7 @@ from plantar.gait.analysis.study.sample_size import people_needed
 from plantar.gait.analysis.study.stored_steps import columns_of, write_csv, write_parquet
 from plantar.gait.analysis.study.study_options import StudyOptions
 from plantar.gait.analysis.study.study_page import StudyParts, study_figures, study_page
-from plantar.gait.analysis.study.workbook import MOST_ROWS, write_workbook
+from plantar.gait.analysis.study.workbook import write_workbook
 
 _CACHE = "measured"  # Folder in the output folder that holds the result of each recording
 _SKIPPED_FORMATS = ("image",)
@@ -443,7 +443,7 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
     else:
         written.append(write_csv(target / "steps.csv", columns, study.step_rows()))
     if study.plan.workbook:
-        steps = {"steps": (columns, list(islice(study.step_rows(), MOST_ROWS)))}
+        steps = {"steps": (columns, list(study.step_rows()))}
         sheets = steps | {name: (columns_of(rows, _PROVENANCE), rows) for name, rows in tables.items()}
         written.append(write_workbook(target / "study.xlsx", sheets))
     if study.comparisons:
