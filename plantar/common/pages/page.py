@@ -125,6 +125,18 @@ def number(value: float | None, digits: int = 3) -> str:
     return f"{value:.{decimals}f}".replace("-", "−")
 
 
+def probability(p: float) -> str:
+    """Returns HTML of a probability, or an en dash if unknown.
+
+    Example:
+        >>> probability(0.0312), probability(math.nan)
+        ('0.031', '–')
+    """
+    if not math.isfinite(p):
+        return "–"
+    return "&lt;\u00a00.001" if p < 0.001 else f"{p:.3f}"
+
+
 _SCRIPT = re.compile(r"<script(?: type=\"module\")?>(.*?)</script>", re.DOTALL)
 _POLICY = (
     "default-src 'none'; base-uri 'none'; form-action 'none'; connect-src 'none'; img-src data: blob:; "

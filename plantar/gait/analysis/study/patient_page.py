@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from plantar.common.pages.page import Section, embedded, number, page, row, table, titled, warning_list
+from plantar.common.pages.page import Section, embedded, number, page, probability, row, table, titled, warning_list
 from plantar.gait.analysis.measures import full_title, unit_of
 from plantar.gait.analysis.pages.force_figures import STANCE
 from plantar.gait.analysis.study.one_against_group import ENOUGH_IN_GROUP, OneAgainstGroup, Standing
@@ -103,10 +103,10 @@ def _table(one: OneAgainstGroup, side: Any) -> str:
         cells = [number(found.value * factor), number(found.mean * factor), f"{low}\u00a0to\u00a0{high}"]
         if math.isfinite(found.t):
             ends = f"[{found.below_low:.1f},\u00a0{found.below_high:.1f}]"
-            cells += [f"{found.below_percent:.1f} {ends}", number(found.t, 2), _probability(found.p)]
+            cells += [f"{found.below_percent:.1f} {ends}", number(found.t, 2), probability(found.p)]
         else:
             cells += ["–"] * 3
-        all_ = _probability(found.p_all)
+        all_ = probability(found.p_all)
         cells.append(f"<strong>{all_}</strong>" if found.p_all <= 0.05 else all_)
         rows.append(row(html.escape(titled(full_title(key), unit)), cells))
     head = (
@@ -121,10 +121,6 @@ def _table(one: OneAgainstGroup, side: Any) -> str:
     )
     caption = f"Means over steps and recordings; {one.n} people. p (all) allows for all measures of both feet."
     return table(f"{side} foot", caption, head, rows)
-
-
-def _probability(p: float) -> str:
-    return "–" if not math.isfinite(p) else "&lt;\u00a00.001" if p < 0.001 else f"{p:.3f}"
 
 
 def _how(one: OneAgainstGroup) -> str:

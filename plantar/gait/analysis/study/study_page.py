@@ -15,6 +15,7 @@ from plantar.common.pages.page import (
     group_row,
     number,
     page,
+    probability,
     row,
     scaled,
     table,
@@ -180,7 +181,7 @@ def _any_difference(one: Comparison) -> str:
     rows = [
         row(
             html.escape(full_title(key)),
-            [f"F({t.freedom[0]}, {t.freedom[1]}) = {number(t.f)}", _probability(t.p), _probability(t.p_all)],
+            [f"F({t.freedom[0]}, {t.freedom[1]}) = {number(t.f)}", probability(t.p), probability(t.p_all)],
         )
         for key, t in found.items()
     ]
@@ -199,14 +200,10 @@ def _cells(effect: Effect, factor: float) -> list[str]:
         text(effect.mean_b * factor),
         f"{text(effect.difference * factor)} [{low},\u00a0{high}]",
         f"{text(effect.effect_size, 2)} [{text(effect.effect_low, 2)},\u00a0{text(effect.effect_high, 2)}]",
-        _probability(effect.p),
-        f"<strong>{_probability(effect.p_all)}</strong>" if effect.p_all < 0.05 else _probability(effect.p_all),
-        *([_probability(effect.p_equivalent)] if math.isfinite(effect.margin) else []),
+        probability(effect.p),
+        f"<strong>{probability(effect.p_all)}</strong>" if effect.p_all < 0.05 else probability(effect.p_all),
+        *([probability(effect.p_equivalent)] if math.isfinite(effect.margin) else []),
     ]
-
-
-def _probability(p: float) -> str:
-    return "&lt;\u00a00.001" if p < 0.001 else f"{p:.3f}"
 
 
 def _clusters(one: Comparison) -> str:
@@ -264,7 +261,7 @@ def _agreement(devices: tuple[str, str], agreement: Mapping[str, Agreement]) -> 
             f"{bias} [{low},\u00a0{high}]",
             least,
             most,
-            _probability(a.slope_p) if a.slope_p == a.slope_p else "–",
+            probability(a.slope_p),
         ]
         rows.append(row(html.escape(titled(title, unit)), cells))
     first = next(iter(agreement.values()))
@@ -286,7 +283,7 @@ def _mixed(mixed: Sequence[MixedEffect]) -> str:
         cells = [
             html.escape(f"{e.b} less {e.a}"),
             f"{difference} [{low},\u00a0{high}]",
-            _probability(e.p),
+            probability(e.p),
             *spreads,
             html.escape(e.note),
         ]
