@@ -64,6 +64,22 @@ class Design:
             constants = np.ones((len(self.level), 1))
         return _orthonormal(np.column_stack([constants, _scaled(self.covariates)]))
 
+    @property
+    def beside_constants(self) -> NDArray[np.float64]:
+        """Orthonormal columns (r, n) of `nuisance` without the constants: permuted residuals have a share in these."""
+        if not self.within:
+            return self.nuisance
+        _, who, rows = np.unique(self.participant, return_inverse=True, return_counts=True)
+        constants = (who[:, None] == np.arange(len(rows))) / np.sqrt(rows)
+        # The constants are among the nuisance: each of its directions is one of them, or at right angles to all.
+        rest, size, _ = np.linalg.svd(self.nuisance - constants @ (constants.T @ self.nuisance), full_matrices=False)
+        return np.asarray(rest[:, size > 0.5])
+
+    @property
+    def pairs(self) -> NDArray[np.int64]:
+        """Both rows (n, 2) of each participant, of two levels."""
+        return np.argsort(self.participant, kind="stable").reshape(-1, 2)
+
 
 @dataclass(frozen=True, eq=False)
 class Contrast:
@@ -134,8 +150,8 @@ def compare_levels(
     """
     pairs = [_Pair(design, a, b) for a, b in combinations(range(design.levels), 2)]
     clusters = Clusters(places)
-    residuals = _residuals(values, design)
-    observed = [pair.t_of(residuals[pair.rows]) for pair in pairs]
+    residuals = _Residuals(_residuals(values, design))
+    observed = [_observed(pair, residuals) for pair in pairs]
     beyond = [clusters.of(t, pair.threshold) for t, pair in zip(observed, pairs, strict=True)]
     family = _permuted(residuals, design, pairs, observed, clusters, any(masses for _, masses in beyond), most)
     out = []
@@ -146,13 +162,13 @@ def compare_levels(
         if len(pair.rows) < len(design.level):
             own = design.of_rows(pair.rows)
             same = _Pair(own, pair.a, pair.b, pair.levels)
-            rest = _residuals(values[pair.rows], own)
+            rest = _Residuals(_residuals(values[pair.rows], own))
             alone = _permuted(rest, own, [same], [t], clusters, bool(masses), most)
         size = np.abs(t)
         cluster_p = [
             max(float(_shares(found.heaviest, np.array([mass]))[0]) for found in (family, alone)) for mass in masses
         ]
-        difference, error = pair.effect_of(values[pair.rows])
+        difference, error = pair.effect_of(values)
         out.append(
             Contrast(
                 pair.a,
@@ -182,19 +198,23 @@ def any_differ(values: NDArray[np.float64], design: Design, most: int = PERMUTAT
     own = _orthonormal(dummies - q @ (q.T @ dummies))
     rest = len(design.level) - q.shape[1] - own.shape[1]
     freedom = (own.shape[1], rest)
+    residuals = _Residuals(_residuals(values, design))
+    squares = (residuals.values**2).sum(axis=0)  # in any order
+    floor = np.maximum(1e-24 * squares, 1e-300)
+    beside = design.beside_constants
 
-    def f_of(y: NDArray[np.float64]) -> NDArray[np.float64]:
-        told = (np.einsum("rc,...rk->...ck", own, y) ** 2).sum(axis=-2)
-        left = (y**2).sum(axis=-2) - (np.einsum("rc,...rk->...ck", q, y) ** 2).sum(axis=-2) - told
-        floor = 1e-24 * np.maximum((y**2).sum(axis=-2), 1e-300)
+    def f_of(orders: NDArray[np.int64]) -> NDArray[np.float64]:
+        told = np.sum([residuals.along(orders, column) ** 2 for column in own.T], axis=0)
+        left = squares - told
+        for column in beside.T:
+            left = left - residuals.along(orders, column) ** 2
         return np.asarray(np.where(told <= floor, 0.0, told / freedom[0] / (np.maximum(left, floor) / freedom[1])))
 
-    residuals = _residuals(values, design)
-    observed = f_of(residuals)
+    observed = f_of(np.arange(len(values))[None])[0]
     each = np.zeros(observed.shape)
     tops = []
     for block in _blocks(design, values.shape[1], most):
-        f = f_of(residuals[block])
+        f = f_of(block)
         each += (f >= observed * (1.0 - _ROUNDING)).sum(axis=0)
         tops.append(f.max(axis=1, initial=0.0))
     largest = np.concatenate(tops)
@@ -202,7 +222,11 @@ def any_differ(values: NDArray[np.float64], design: Design, most: int = PERMUTAT
 
 
 class _Pair:
-    """t of two levels of a design, from values of their rows."""
+    """t of two levels of a design, of residuals of all its rows in any order.
+
+    Sums of squares are products of matrices of the permutations (b, r) and of the values (r, k), so that no values are
+    moved. Of a participant's two rows, only their difference is not the participant's constant.
+    """
 
     def __init__(self, design: Design, a: int, b: int, levels: tuple[int, int] | None = None) -> None:
         first, second = levels or (a, b)
@@ -215,35 +239,76 @@ class _Pair:
         self.levels = (first, second)
         self.rows = np.flatnonzero(kept)
         own = design.of_rows(self.rows)
-        self.nuisance = own.nuisance
+        nuisance = own.nuisance
         x = (own.level == second).astype(float)
-        x -= self.nuisance @ (self.nuisance.T @ x)
+        x -= nuisance @ (nuisance.T @ x)
         self.length = float(np.sqrt(x @ x))
         self.x = x / max(self.length, 1e-300)
-        self.freedom = len(x) - self.nuisance.shape[1] - 1
+        self.freedom = len(x) - nuisance.shape[1] - 1
+        self._of_pairs = own.pairs if design.within else None
+        self._rest = own.beside_constants if design.within else nuisance
 
     @property
     def threshold(self) -> float:
         """|t| from which a value is in a cluster: that of p = 0.05 by itself."""
         return student_quantile(0.975, max(self.freedom, 1))
 
-    def parts(self, y: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Projection on the difference and standard deviation of the rest, of values (..., r, k)."""
-        along = np.einsum("r,...rk->...k", self.x, y)
-        squares = (y**2).sum(axis=-2)
-        nuisance = (np.einsum("rn,...rk->...nk", self.nuisance, y) ** 2).sum(axis=-2)
-        rest = np.maximum(squares - nuisance - along**2, 1e-24 * squares)
-        return along, np.asarray(np.sqrt(rest / max(self.freedom, 1)))
+    def parts(
+        self, residuals: "_Residuals", orders: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Projection on the difference, standard deviation of the rest, and length, (b, k) each, of orders (b, r)."""
+        taken = orders[:, self.rows]
+        along = residuals.along(taken, self.x)
+        squares = residuals.squares(taken)
+        rest = squares if self._of_pairs is None else residuals.squares_of_pairs(taken[:, self._of_pairs])
+        for column in self._rest.T:
+            rest = rest - residuals.along(taken, column) ** 2
+        rest = np.maximum(rest - along**2, 1e-24 * squares)
+        return along, np.asarray(np.sqrt(rest / max(self.freedom, 1))), np.sqrt(squares)
 
-    def t_of(self, y: NDArray[np.float64]) -> NDArray[np.float64]:
-        along, spread = self.parts(y)
-        small = np.abs(along) <= 1e-12 * np.sqrt((y**2).sum(axis=-2))
+    def t_of(self, residuals: "_Residuals", orders: NDArray[np.int64]) -> NDArray[np.float64]:
+        along, spread, length = self.parts(residuals, orders)
+        small = np.abs(along) <= 1e-12 * length
         return np.asarray(np.where(small, 0.0, along / np.maximum(spread, 1e-300)))
 
-    def effect_of(self, y: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Adjusted difference and its standard error."""
-        along, spread = self.parts(y - y.mean(axis=0))
+    def effect_of(self, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Adjusted difference and its standard error, from values of all rows."""
+        centred = values - values[self.rows].mean(axis=0)
+        along, spread, _ = (part[0] for part in self.parts(_Residuals(centred), np.arange(len(values))[None]))
         return along / max(self.length, 1e-300), spread / max(self.length, 1e-300)
+
+
+class _Residuals:
+    """Values (r, k) that are permuted, and sums over them in any order of rows."""
+
+    def __init__(self, values: NDArray[np.float64]) -> None:
+        self.values = values
+        self._squares = values**2
+        self._differences: tuple[NDArray[np.int64], NDArray[np.float64]] | None = None
+
+    def along(self, taken: NDArray[np.int64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sums (b, k) of the rows taken (b, m), times weights (m,)."""
+        return self._spread(taken, weights) @ self.values
+
+    def squares(self, taken: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Sums (b, k) of the squares of the rows taken (b, m)."""
+        return self._spread(taken, np.ones(taken.shape[1])) @ self._squares
+
+    def squares_of_pairs(self, taken: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Sums (b, k) of half the squared differences of pairs of rows (b, n, 2), each pair known or not yet."""
+        rows = len(self.values)
+        low, high = np.sort(taken, axis=2).transpose(2, 0, 1)
+        codes, place = np.unique(low * rows + high, return_inverse=True)
+        first, second = np.divmod(codes, rows)
+        halves = 0.5 * (self.values[second] - self.values[first]) ** 2
+        chosen = np.zeros((len(taken), len(codes)))
+        np.put_along_axis(chosen, place.reshape(low.shape), 1.0, axis=1)
+        return np.asarray(chosen @ halves)
+
+    def _spread(self, taken: NDArray[np.int64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+        out = np.zeros((len(taken), len(self.values)))
+        np.put_along_axis(out, taken, np.broadcast_to(weights, taken.shape), axis=1)
+        return out
 
 
 def _orthonormal(columns: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -277,8 +342,12 @@ class _Permuted(NamedTuple):
     p: list[NDArray[np.float64]]
 
 
+def _observed(pair: _Pair, residuals: _Residuals) -> NDArray[np.float64]:
+    return np.asarray(pair.t_of(residuals, np.arange(len(residuals.values))[None])[0])
+
+
 def _permuted(
-    residuals: NDArray[np.float64],
+    residuals: _Residuals,
     design: Design,
     pairs: Sequence[_Pair],
     observed: Sequence[NDArray[np.float64]],
@@ -289,18 +358,21 @@ def _permuted(
     """Permute a design's residuals (r, k); without `heavy` clusters weigh nothing."""
     reached = [np.zeros(t.shape) for t in observed]
     tops: list[NDArray[np.float64]] = []
-    weights: list[float] = []
-    for block in _blocks(design, residuals.shape[1], most):
-        found = [pair.t_of(residuals[block[:, pair.rows]]) for pair in pairs]
-        sizes = [np.abs(t) for t in found]
-        for count, size, t in zip(reached, sizes, observed, strict=True):
+    weights: list[NDArray[np.float64]] = []
+    for block in _blocks(design, residuals.values.shape[1], most):
+        top = np.zeros(len(block))
+        heaviest = np.zeros(len(block))
+        for pair, t, count in zip(pairs, observed, reached, strict=True):
+            found = pair.t_of(residuals, block)
+            size = np.abs(found)
             count += (size >= np.abs(t) * (1.0 - _ROUNDING)).sum(axis=0)
-        tops.append(np.max([size.max(axis=1, initial=0.0) for size in sizes], axis=0))
-        if heavy:
-            heaviest = [[clusters.heaviest(one, p.threshold) for one in t] for p, t in zip(pairs, found, strict=True)]
-            weights += np.max(heaviest, axis=0).tolist()
-    top = np.concatenate(tops)
-    return _Permuted(top, np.array(weights) if heavy else np.zeros(len(top)), [count / len(top) for count in reached])
+            top = np.maximum(top, size.max(axis=1, initial=0.0))
+            if heavy:
+                heaviest = np.maximum(heaviest, clusters.heaviest(found, pair.threshold))
+        tops.append(top)
+        weights.append(heaviest)
+    largest = np.concatenate(tops)
+    return _Permuted(largest, np.concatenate(weights), [count / len(largest) for count in reached])
 
 
 def _shares(permuted: NDArray[np.float64], observed: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -313,7 +385,7 @@ def _shares(permuted: NDArray[np.float64], observed: NDArray[np.float64]) -> NDA
 def _blocks(design: Design, values: int, most: int) -> Iterator[NDArray[np.int64]]:
     """Row numbers (b, r) of permutations, the observed one first, some at a time."""
     rows = len(design.level)
-    size = max(1, _BLOCK // max(1, rows * values))
+    size = max(1, _BLOCK // (rows + values))
     block: list[NDArray[np.int64]] = []
     for order in _orders(design, most):
         block.append(order)

@@ -1,12 +1,13 @@
 """Designs by permutation keep their promise where nothing differs, and find what is planted."""
 
 import zlib
-from itertools import combinations
+from itertools import combinations, permutations, product
 
 import numpy as np
 import pytest
 from scipy import stats
 
+from plantar.gait.analysis.study.clusters import Clusters
 from plantar.gait.analysis.study.designs import Design, any_differ, compare_levels
 from plantar.gait.analysis.study.one_against_group import deviation_of
 
@@ -99,6 +100,86 @@ def test_an_f_is_that_of_two_ways_and_of_one():
     assert any_differ(values, within, most=50).f[0] == pytest.approx(told / ((rest**2).sum() / 27), rel=1e-9)
     for c, (a, b) in zip(compare_levels(values, within, most=50), combinations(range(4), 2), strict=True):
         assert c.t[0] == pytest.approx(stats.ttest_rel(table[:, b], table[:, a]).statistic, rel=1e-9)
+
+
+def t_by_least_squares(y, who, level, speed):
+    """t of level 1 beside level 0 with a constant for each participant and a covariate, solved column by column."""
+    x = np.column_stack([who[:, None] == np.unique(who), speed, level]).astype(float)
+    out = []
+    for own in y.T:
+        beta, *_ = np.linalg.lstsq(x, own, rcond=None)
+        rest = ((own - x @ beta) ** 2).sum() / (len(own) - x.shape[1])
+        out.append(beta[-1] / np.sqrt(rest * np.linalg.inv(x.T @ x)[-1, -1]))
+    return np.array(out)
+
+
+def left_by_least_squares(y, who, speed):
+    x = np.column_stack([who[:, None] == np.unique(who), speed]).astype(float)
+    return y - x @ np.linalg.lstsq(x, y, rcond=None)[0]
+
+
+def orders_within(who):
+    """Every order of rows within participants."""
+    groups = [np.flatnonzero(who == one) for one in np.unique(who)]
+    for choice in product(*(permutations(group) for group in groups)):
+        order = np.arange(len(who))
+        for group, chosen in zip(groups, choice, strict=True):
+            order[group] = chosen
+        yield order
+
+
+def test_probabilities_of_three_levels_and_a_covariate_are_those_of_every_order_by_least_squares():
+    random = seeded("every order")
+    who = np.repeat(np.arange(4), 3)
+    level = np.tile(np.arange(3), 4)
+    speed = random.normal(1.2, 0.1, 12) + 0.1 * level
+    values = random.normal(size=(12, 2)) + 3.0 * speed[:, None] + np.outer(level == 2, [2.0, 0.0])
+    found = compare_levels(values, Design(who, level, speed[:, None], True), most=2000)
+    whole = left_by_least_squares(values, who, speed)
+    pairs = {(a, b): np.flatnonzero((level == a) | (level == b)) for a, b in combinations(range(3), 2)}
+
+    def t_of(y, a, b):
+        rows = pairs[a, b]
+        return t_by_least_squares(y[rows], who[rows], level[rows] == b, speed[rows])
+
+    largest = [max(np.abs(t_of(whole[order], *pair)).max() for pair in pairs) for order in orders_within(who)]
+    for contrast in found:
+        a, b = contrast.a, contrast.b
+        rows = pairs[a, b]
+        observed = t_of(whole, a, b)
+        assert contrast.t == pytest.approx(observed, rel=1e-9)
+        left = left_by_least_squares(values[rows], who[rows], speed[rows])
+        alone = np.array(
+            [
+                np.abs(t_by_least_squares(left[order], who[rows], level[rows] == b, speed[rows]))
+                for order in orders_within(who[rows])
+            ]
+        )
+        reached = np.abs(observed) * (1.0 - 1e-7)
+        assert contrast.p == pytest.approx((alone >= reached).mean(axis=0), rel=1e-9)
+        of_family = (np.array(largest)[:, None] >= reached).mean(axis=0)
+        of_pair = (alone.max(axis=1)[:, None] >= reached).mean(axis=0)
+        assert contrast.p_all == pytest.approx(np.maximum(of_family, of_pair), rel=1e-9)
+
+
+def test_a_measure_that_never_varies_differs_nowhere():
+    """Beside one that does; of three levels, F of nothing over nothing is 0."""
+    random = seeded("constant")
+    design = design_of(3, True)
+    values = np.column_stack([np.full(len(design.level), 7.0), random.normal(size=len(design.level))])
+    test = any_differ(values, design, most=50)
+    assert (test.f[0], test.p[0], test.p_all[0]) == (0.0, 1.0, 1.0)
+    for contrast in compare_levels(values, design, most=50):
+        assert (contrast.t[0], contrast.p[0], contrast.p_all[0]) == (0.0, 1.0, 1.0)
+
+
+def test_the_heaviest_cluster_of_a_map_is_the_one_that_is_found_in_it_alone():
+    random = seeded("heaviest")
+    places = random.random((9, 7)) < 0.8
+    clusters = Clusters(places)
+    maps = random.normal(size=(40, int(places.sum()))) * 2.0
+    alone = [max([*clusters.of(one, 1.5)[1], 0.0]) for one in maps]
+    assert clusters.heaviest(maps, 1.5) == pytest.approx(alone, rel=1e-12)
 
 
 def test_one_against_a_group_errs_in_5_of_100():
