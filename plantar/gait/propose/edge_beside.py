@@ -26,10 +26,12 @@ _ALIKE = 0.08  # Of a sole's width, by which the moves for them differ at most: 
 class EdgeBeside:
     """Moves footsteps onto ground that a landed foot saw.
 
-    An edge cutting a share f off a sole of width w moves steps by f w / 2.
+    An edge cutting a share f off a sole of width w moves steps by f w / 2, since the ground may end at its other side,
+    too. In a drift it does not: steps move by f w, onto it.
 
     `drop`: distance in m from the sole of absent ground; `largest`: largest move in m by one landing; `drift`: whether
-    steps move only for a drift: alike edges at a foot's last landings, none at the other's.
+    steps move only for a drift: alike edges at a foot's last landings, none at the other's. A heading that is off
+    drifts on, so that each later landing at that edge moves steps again.
     """
 
     priority = Priority.FOOTHOLD
@@ -66,6 +68,7 @@ class EdgeBeside:
         across = self._across(side, distance)
         if self._seen is not None:
             across = self._drifted(self._seen, across)
+        across = min(self._largest, max(-self._largest, across))
         if not across or step + 1 >= tick.plan.count or self._begun(step, tick):
             return None
         last, way = self._moved
@@ -76,7 +79,7 @@ class EdgeBeside:
         return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
 
     def _drifted(self, seen: list[float], across: float) -> float:
-        """Least move of a foot's last landings where they mean a drift."""
+        """Move onto the ground by the least of a foot's last landings where they mean a drift."""
         seen.append(across)
         del seen[: -(2 * _DRIFT - 1)]
         own = seen[::-2]
@@ -84,8 +87,7 @@ class EdgeBeside:
         alike = len(own) == _DRIFT and min(own) * max(own) > 0.0 and max(own) - min(own) <= self._alike
         if not alike or any(other):
             return 0.0
-        seen.clear()
-        return min(own, key=abs)
+        return 2.0 * min(own, key=abs)
 
     def _across(self, side: Side, distance: NDArray[np.float64]) -> float:
         """Middle of its ground in m to the sole's left; 0 without an edge along a side."""
@@ -99,4 +101,4 @@ class EdgeBeside:
         ahead, across = (places[known & ~over].mean(axis=0) - places[known].mean(axis=0)).tolist()
         if abs(across) <= abs(ahead):
             return 0.0
-        return float(min(self._largest, max(-self._largest, across)))
+        return float(across)

@@ -98,16 +98,34 @@ def test_it_asks_again_until_its_change_is_applied(proposer, sole, plan_of, tick
         ((-0.045, -0.045, -0.045), (None, -0.045), False),
     ],
 )
-def test_a_walk_that_bears_partial_footholds_moves_off_the_edge_that_it_drifts_to(
+def test_a_walk_that_bears_partial_footholds_moves_onto_the_ground_whose_edge_it_drifts_to(
     left, right, moves, sole, plan_of, tick_at
 ):
-    proposer, plan = EdgeBeside(dict.fromkeys(SIDES, sole), DROP, LARGEST, drift=True), plan_of()
-    swings = [p for p in plan.schedule.phases if p.swing is not None][:5]
-    changes = []
-    for edge, phase in zip([left[0], right[0], left[1], right[1], left[2]], swings, strict=True):
-        seen = np.full(len(sole), 0.001) if edge is None else ground(sole, edge)
-        changes.append(proposer.propose(tick_at(plan, phase.end - 0.01, feet=down(phase.swing, seen))))
+    proposer, plan = EdgeBeside(dict.fromkeys(SIDES, sole), DROP, 0.05, drift=True), plan_of()
+    edges = [left[0], right[0], left[1], right[1], left[2]]
+    changes = landings(proposer, plan, edges, sole, tick_at)
     assert changes[:4] == [None] * 4
     assert (changes[4] is not None) is moves
     if moves:
-        assert changes[4].shift == pytest.approx((0.0, 0.5 * 0.025), abs=0.004)
+        assert changes[4].shift == pytest.approx((0.0, 0.025), abs=0.006)
+
+
+def test_a_drift_that_goes_on_is_followed_at_each_landing(sole, plan_of, tick_at):
+    proposer, plan = EdgeBeside(dict.fromkeys(SIDES, sole), DROP, 0.05, drift=True), plan_of(10)
+    edges = [-0.045, None] * 5
+    changes = landings(proposer, plan, edges[:-1], sole, tick_at)
+    assert [change is not None for change in changes] == [False] * 4 + [True, False, True, False, True]
+
+
+def landings(proposer, plan, edges, sole, tick_at):
+    """Changes proposed at the landings of a walk whose soles see ground that ends at each of some edges."""
+    swings = [p for p in plan.schedule.phases if p.swing is not None][: len(edges)]
+    changes = []
+    for edge, phase in zip(edges, swings, strict=True):
+        seen = np.full(len(sole), 0.001) if edge is None else ground(sole, edge)
+        change = proposer.propose(tick_at(plan, phase.end - 0.01, feet=down(phase.swing, seen)))
+        changes.append(change)
+        if change is not None:
+            plan.apply(change, phase.end - 0.01, NOWHERE)
+            assert proposer.propose(tick_at(plan, phase.end - 0.005)) is None
+    return changes
