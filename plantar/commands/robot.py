@@ -11,6 +11,7 @@ from plantar.common.console.command import Command, Json, Output, end_command
 from plantar.common.console.progress import part_of, progress_bar
 from plantar.common.optional_library import need_libraries
 from plantar.errors import InputError, RobotError
+from plantar.kernels import need_compiled
 from plantar.sim.libraries import LIBRARIES
 
 
@@ -48,6 +49,7 @@ def robot(
         checked = check_robot(robot_file, scene or "flat")
         end_command(checked.as_dict(), as_json, checked.text(), checked.failures, not checked.holds)
         return
+    need_compiled("walking")  # before a survey of minutes, whose robot could not be tried
     from plantar.common.atomic import output_folder
     from plantar.common.files.model_files import files_of_model
     from plantar.shoes.found_foot import shoe_for_surface
