@@ -94,28 +94,6 @@ def line() -> str:
 
 
 @needs_extensions
-def test_the_doctor_names_the_missing_kernel(incomplete):
-    done = plantar(incomplete, "doctor")
-    assert line() in done.stdout
-    assert line() in done.stderr
-
-
-@pytest.mark.sample(2)
-@needs_extensions
-@pytest.mark.parametrize(
-    "words", [("sim", "flat"), ("sweep", "flat", "--seeds", "1"), ("demo",), ("bench", "skip"), ("bench", "footholds")]
-)
-def test_walking_needs_the_compiled_form(incomplete, words):
-    done = plantar(incomplete, *words)
-    assert done.returncode == 2
-    note, error = done.stderr.splitlines()
-    assert line() in note
-    assert line() in error
-    assert "compiled kernels" in error
-    assert not (incomplete / "out").exists()
-
-
-@needs_extensions
 def test_reading_and_analysing_work_interpreted(incomplete):
     rows = ["time,left_heel,left_ball,right_heel,right_ball"]
     for time in np.arange(0.0, 8.0, 0.02):
