@@ -5,6 +5,7 @@ import os
 # Before numpy loads: threads of one small solve wait for each other, ten times as long beside another worker.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import gc
 import hashlib
 import re
 import signal
@@ -34,6 +35,10 @@ if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
 # Interpreted, the simulations would take hours.
 if kernels.problem and kernels.problem != "none of them is compiled":
     pytest.exit(kernels.form_text(), returncode=4)
+
+# Some ten thousand tests are millions of objects that stay: looking through them for garbage again and again, while they
+# are collected, takes a third of that time.
+gc.disable()
 
 # For its doctests pytest loads a module from the source; a kernel that was not yet loaded would stay interpreted and
 # lack what compiled ones share among themselves.
@@ -71,6 +76,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for item in beyond_sample(items):
         item.add_marker(pytest.mark.long)
     items.sort(key=lambda item: not item.path.relative_to(config.rootpath).as_posix().startswith(SLOW))
+
+
+def pytest_collection_finish() -> None:
+    """Look for garbage again, but not among what was collected."""
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.hookimpl(optionalhook=True)
