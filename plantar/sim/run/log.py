@@ -23,7 +23,7 @@ from plantar.sim.partner.mobile_robot import MobileRobot
 from plantar.sim.partner.touch import Touch
 
 MOST_VERTICES = 24
-"""Vertices of a recorded support polygon; further ones are left out."""
+"""Vertices of a recorded support polygon; of a rounder one those are left out that change its area least."""
 
 
 class RunLog(ExitStack):
@@ -97,7 +97,7 @@ class RunLog(ExitStack):
 
     def _footholds(self, time: float, command: Command) -> None:
         for found in command.footholds:
-            ring = found.polygon[:MOST_VERTICES].ravel()
+            ring = _with_fewer_vertices(found.polygon).ravel()
             polygon = np.full(2 * MOST_VERTICES, np.nan)
             polygon[: len(ring)] = ring
             self._foothold.write(time, found.step, SIDES.index(found.side), found.area_ratio, found.vrp, polygon)
@@ -160,6 +160,18 @@ class RunLog(ExitStack):
         self._feet.write(sensors.time, *(command.feet[side].position for side in SIDES))
         if self._partner is not None:
             self._partners.write(sensors.time, self._partner.moved, self._partner.law.position, self._partner.force)
+
+
+def _with_fewer_vertices(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A polygon (k, 2) of at most `MOST_VERTICES`: again and again without the one whose triangle with its neighbours
+    is smallest (Visvalingam and Whyatt 1993).
+    """
+    while len(ring) > MOST_VERTICES:
+        before = ring - np.roll(ring, 1, axis=0)
+        after = np.roll(ring, -1, axis=0) - ring
+        doubled = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
+        ring = np.delete(ring, int(doubled.argmin()), axis=0)
+    return ring
 
 
 def _or_nan(value: Any) -> Any:
