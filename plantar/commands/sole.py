@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.common.console.command import Command, Json, Output, end_command
+from plantar.common.console.command import Command, Json, Output, end_command, file_lines
 
 
 def sole(
@@ -33,7 +33,8 @@ def sole(
 
     view = view_of(recording, at, foot, layout=layout)
     files = [str(path) for path in view.save(output)]
-    text = "\n".join([f"{view.side} sole at {view.time:.3f} s", *(f"  {line}" for line in view.lines()), *files])
+    lines = [f"{view.side} sole at {view.time:.3f} s", *(f"  {line}" for line in view.lines())]
+    text = "\n".join(lines) + file_lines(files)
     end_command({**view.as_dict(), "files": files}, as_json, text)
 
 

@@ -296,6 +296,9 @@ def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: 
             continue
         size = extent * UNIT_SIZE[given]
         if not low <= size <= high:
+            others = [u for u, scale in UNIT_SIZE.items() if low <= extent * scale <= high]
+            mends = " or ".join(f"--unit {u}, {extent * UNIT_SIZE[u]:.4g} mm long" for u in others)
+            allowed += f" ({mends})" if mends else ""
             raise FootError(f"{where}: the foot is {size:.6g} mm long (unit {given} {source}); {allowed}")
         return UNIT_SIZE[given], f"unit {given} {source}"
     for guess in ("m", "mm"):

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.common.gravity import GRAVITY
+from plantar.robots.kinematics.command_joints import REACH_ERROR
 
 Summary = Mapping[str, Any]
 
@@ -14,6 +15,9 @@ _SHOWN = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_heigh
 
 # Units of values by the ends of their names in the JSON
 _UNITS = {"_rad_s": "rad/s", "_Nm": "N m", "_mm_N": "mm/N", "_mm": "mm", "_m": "m", "_N": "N", "_deg": "deg", "_s": "s"}
+
+# Sizes of a body that a share is a percentage of
+_SIZES = ("leg", "sole", "sole_width", "weight")
 
 _COMMON = {"scene", "robot", "seed", "completed", "reasons", "fell", "sim_time_s", "wall_time_s", "real_time_factor"}
 _COMMON |= {"control_us", "control_us_by_active", "skipped", "figures"}
@@ -82,10 +86,18 @@ def _value(value: Any) -> str:
 
 def _shares(summary: Summary) -> list[str]:
     shares = {name: share for name, share in summary["shares"].items() if name.startswith(_SHOWN)}
-    parts = [f"{name} {x['value']:.3g} {x['unit']} ({x['share']})" for name, x in shares.items()]
+    parts = [f"{name} {x['value']:.3g} {x['unit']} ({_share(x['share'])})" for name, x in shares.items()]
     body = summary["body"]
-    size = f"{body['mass_kg']:.3g} kg, paced as a leg of {body['leg_m']:.3g} m, soles of {body['sole_m']:.3g} m"
-    return textwrap.wrap(f"on {size}: {', '.join(parts)}", 118, initial_indent="  ", subsequent_indent="    ")
+    size = f"{body['mass_kg']:.3g} kg, legs of {body['leg_m']:.3g} m, soles of {body['sole_m']:.3g} m"
+    return textwrap.wrap(f"{size}: {', '.join(parts)}", 118, initial_indent="  ", subsequent_indent="    ")
+
+
+def _share(text: str) -> str:
+    """A share such as "0.3333 leg" in words: "33.3 % of the leg"; one of no single size of the body as it is."""
+    number, _, unit = text.partition(" ")
+    if unit not in _SIZES:
+        return text
+    return f"{100.0 * float(number):.3g} % of the {unit.replace('_', ' ')}"
 
 
 def _plant(summary: Summary) -> list[str]:
@@ -147,8 +159,8 @@ def _joints(summary: Summary) -> list[str]:
     late = summary["out_of_reach_since_s"]
     if late is not None:
         lines.append(
-            f"  from {late:.2f} s on the legs did not reach what was asked of them: walk lower (--set crouch=0.05) or "
-            "take shorter steps"
+            f"  from {late:.2f} s on a leg was at times more than {1e3 * REACH_ERROR:g} mm or mrad off its target: "
+            "if that matters, walk lower (--set crouch=0.05)"
         )
     return lines
 

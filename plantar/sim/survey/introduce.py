@@ -124,13 +124,13 @@ class Introduced:
         size = f"{1e3 * body.sole:.0f} x {1e3 * body.sole_width:.0f} mm"
         return "\n".join(
             [
-                f"{robot.name}: {body.mass:.3g} kg with shoes, {len(joints)} joints a leg; paced as a leg of "
-                f"{body.leg:.3f} m",
+                f"{robot.name}: {body.mass:.3g} kg with shoes, {len(joints)} joints a leg; legs of {body.leg:.3f} m",
                 *(f"  {s} leg: {' '.join(robot.legs[s].joints)}, foot {robot.legs[s].foot_body}" for s in SIDES),
                 f"  soles: {size}, {taxels} taxels each; tilted by {turns} degrees against their bodies' axes",
                 f"  walks with its CoM at {robot.com_height:.3f} m, feet {robot.stance_width:.3f} m apart, "
                 f"{robot.single_support:g} + {robot.double_support:g} s a step",
                 *(f"  note: {note}" for note in self.notes),
+                *(["  its trial walk on level ground is completed"] if self.walks else []),
                 f"made {file}: look at {output / 'robot.png'}, then",
                 f"  plantar robot check {file}",
                 f"  plantar sim flat --robot {file}",

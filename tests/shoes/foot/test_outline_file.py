@@ -69,6 +69,13 @@ def test_every_kind_gives_the_same_outline(tmp_path):
         assert any("sides are taken to be upright" in n for n in foot.notes)
 
 
+def test_a_unit_that_cannot_be_is_refused_with_those_that_would_do(tmp_path):
+    path = dxf(tmp_path / "wrong.dxf", 6, 1.0)  # drawn in mm, marked as m
+    with pytest.raises(FootError, match=r"200000 mm long \(unit m as the file states\).*\(--unit mm, 200 mm long\)"):
+        foot_from_drawing(path)
+    assert foot_from_drawing(path, unit="mm").notes[0] == "unit mm as given"
+
+
 def test_curves_are_followed(tmp_path):
     import ezdxf
 

@@ -217,6 +217,9 @@ def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:
             continue
         contact = foot["measures"]["contact_time_s"]["mean"]
         lines.append(f"  {side}: {foot['steps']} complete steps" + (f", contact {contact:.3f} s" if contact else ""))
+    activity = metrics.get("activity", {})
+    if activity.get("name") == "standing":
+        lines.append(f"  this is standing, in which no steps are counted: {activity['why']}")
     cadence = metrics["gait"].get("cadence_steps_per_min")
     if cadence is not None:
         lines.append(f"  cadence {cadence:.1f} steps/min")

@@ -25,6 +25,14 @@ def test_a_walk_tells_steps_contact_and_cadence():
     assert analysis_text(WALK, "A").startswith("A: mcap")
 
 
+def test_standing_is_given_as_the_reason_why_there_are_no_steps():
+    why = "no foot is lifted"
+    standing = WALK | {"gait": {}, "activity": {"name": "standing", "why": why}}
+    assert analysis_text(standing).splitlines()[-1] == f"  this is standing, in which no steps are counted: {why}"
+    walking = WALK | {"activity": {"name": "walking", "why": why}}
+    assert why not in analysis_text(walking)
+
+
 def test_a_footprint_tells_what_was_measured_of_it():
     feet = {
         "left": {"footprint": {"length_m": 0.25, "arch_index": 0.231}},
