@@ -6,7 +6,7 @@ The wheel is built once and installed in a fresh environment for each set of ext
 the shell, every example and every door of the library then runs in a process of its own, a page's in one folder, in
 order. Each must end in one of five ways: done; still at work when its time is over; the line that gives the command for
 a library that none of the installed extras brings; the absence of one; or one line on a file of the user's that is not
-there. Anything else is printed, and the exit code is 1.
+there. Anything else is printed, and the exit code is 1. Each is listed on stderr with its processor time.
 """
 
 import argparse
@@ -131,6 +131,7 @@ class Stranger:
         self.environment = clean | {"PATH": path, "MUJOCO_GL": "egl"}
         self.counts: dict[str, int] = {}
         self.broken: list[str] = []
+        self._before = 0.0
 
     def try_pages(self, only: str) -> None:
         """Each page's blocks in a folder of its own, which has the examples as a clone has."""
@@ -169,6 +170,7 @@ class Stranger:
         self._judge(block.place, done)
 
     def _run(self, command: list[str], folder: Path) -> subprocess.CompletedProcess[str] | None:
+        self._before = _children_s()
         pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
         started = subprocess.Popen(
             command, cwd=folder, env=self.environment, text=True, start_new_session=True, **pipes
@@ -183,9 +185,16 @@ class Stranger:
     def _judge(self, place: str, done: subprocess.CompletedProcess[str] | None) -> None:
         ended = "at work" if done is None else outcome(done, self._absent)
         self.counts[ended] = self.counts.get(ended, 0) + 1
+        print(f"{_children_s() - self._before:7.1f} s  {ended:10}  {place}", file=sys.stderr, flush=True)
         if done is not None and ended == "broken":
             last = "\n    ".join(done.stderr.strip().splitlines()[-3:])
             self.broken.append(f"{place}: exit {done.returncode}\n    {last}")
+
+
+def _children_s() -> float:
+    """Processor time of the processes that ended so far."""
+    used = os.times()
+    return used.children_user + used.children_system
 
 
 def _end(started: subprocess.Popen[str]) -> None:
