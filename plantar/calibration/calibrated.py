@@ -183,6 +183,11 @@ def _top(side: Side, takes: Sequence[Take], offset: NDArray[np.float64]) -> NDAr
 
 def _reference(windows: Sequence[Windows]) -> float:
     """Load in N that the average newton of a take lies on: that of a taxel, by one gain for all."""
+    if not any(take.usable.any() for take in windows):
+        raise InputError(
+            "no take holds a load that is known: by weight alone a body stands or leans for over 3 s without lifting a "
+            "foot, and no count is at its converter's end; allowed: such a take, one with --reference, or --press"
+        )
     square = 0.0
     simple = 0.0
     for take in windows:

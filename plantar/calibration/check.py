@@ -88,7 +88,7 @@ def check_calibration(take: Take, layout: SoleLayout) -> CheckedCalibration:
     soles = _calibrated_soles(take, layout)
     weight = _weight(take)
     forces = {side: known.forces(take.counts[side], sole, take.rate) for side, (sole, known) in soles.items()}
-    sums = {side: np.nansum(force, axis=1) for side, force in forces.items()}
+    sums = {side: _sums(force) for side, force in forces.items()}
     total = np.sum(list(sums.values()), axis=0)
     standing = _still(total, take.rate)
     if not standing.any():
@@ -158,7 +158,7 @@ def drift(take: Take, layout: SoleLayout) -> dict[Side, Drift]:
     out: dict[Side, Drift] = {}
     for side, (_, known) in soles.items():
         # Of a straight response: creep, which the calibration takes off, is what is looked for.
-        total = np.nansum((take.counts[side] - known.offset) * known.gain, axis=1)
+        total = _sums((take.counts[side] - known.offset) * known.gain)
         phases = _phases(total > 0.5 * share, take)
         lifted = _phases(total < _LIFTED * share, take)
         air = np.array([[np.mean(take.time[a:b]), np.mean(total[a:b])] for a, b in lifted])
@@ -203,6 +203,11 @@ def _calibrated_soles(take: Take, layout: SoleLayout) -> dict[Side, tuple[SoleLa
     return soles
 
 
+def _sums(force: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Sum (k,) of the taxels of each frame (k, n), NaN where none is known."""
+    return np.where(np.isnan(force).all(axis=1), np.nan, np.nansum(force, axis=1))
+
+
 def _weight(take: Take) -> float:
     assert isinstance(take.load, np.ndarray)  # of a motion
     return float(np.nanmedian(take.load))
@@ -215,7 +220,7 @@ def _phases(mask: NDArray[np.bool_], take: Take) -> list[tuple[int, int]]:
 def _still(total: NDArray[np.float64], rate: float) -> NDArray[np.bool_]:
     """Frames (k,) of the longest times in which the total is near its median and hardly changes."""
     width = max(1, round(_SHORTEST * rate))
-    typical = float(np.median(total[total > 0.5 * np.quantile(total, 0.98)])) if (total > 0.0).any() else 0.0
+    typical = float(np.nanmedian(total[total > 0.5 * np.nanquantile(total, 0.98)])) if (total > 0.0).any() else 0.0
     near = np.abs(total - typical) < 0.1 * typical
     out = np.zeros(len(total), dtype=bool)
     for a, b in true_runs(near):
@@ -229,7 +234,7 @@ def _still_lifted(
 ) -> NDArray[np.bool_]:
     """Frames (k,) in which a sole is off the ground, without the tenth of a second beside touchdown and lift-off."""
     out = np.zeros(len(own), dtype=bool)
-    for a, b in true_runs(own < _LIFTED * max(weight, float(np.median(total)))):
+    for a, b in true_runs(own < _LIFTED * max(weight, float(np.nanmedian(total)))):
         margin = max(1, round(0.1 * rate))
         if b - a >= round(_SHORTEST * rate) // 2 + 2 * margin:
             out[a + margin : b - margin] = True

@@ -19,6 +19,7 @@ TakeKind = Literal["zero", "press", "motion"]
 """What happens in a take: no load, known forces on parts of a sole, or a body that stands and moves on its soles."""
 
 _FEWEST = 10  # frames
+_BRIDGED = 0.1  # s between two counts of a taxel, up to which those that are missing lie on a line: a window of the fit
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +30,7 @@ class Take:
         kind: "zero": nothing touches the soles. "press": forces on parts of a sole, such as weights on single taxels or
             a roller on a sole that lies on a scale. "motion": a body that stands, leans and steps on these soles.
         time: Times (k,) in s, rising.
-        counts: Counts (k, n) of each sole in it.
+        counts: Counts (k, n) of each sole in it; for those that are missing (NaN) for up to 0.1 s a line is put.
         load: Force (k,) in N on all these soles together, NaN where unknown; a body's weight is one number. For a robot
             m (g + a) of its center of mass, by joints, IMU and mass. Left out for "zero".
         cop: Center of pressure (k, 2) in the sole frame in m of a sole while it carries alone; NaN where unknown.
@@ -77,10 +78,10 @@ class Take:
         if side not in SIDES:
             raise InputError(f"{self.name} holds counts of {side!r}; allowed: left, right")
         what = f"{self.name}: counts of the {side} sole"
-        found = own(array(rows, what, (len(self.time), "any"), InputError))
+        found = array(rows, what, (len(self.time), "any"), InputError)
         if np.isinf(found).any():
             raise InputError(f"{what} hold a value that is infinite")
-        return found
+        return own(_bridged(self.time, found))
 
     def _load(self) -> NDArray[np.float64] | None:
         if self.load is None:
@@ -107,6 +108,21 @@ class Take:
         if np.nanmax(np.abs(found), initial=0.0) > 1.0:
             raise InputError(f"{what} lies more than 1 m from the sole's origin")
         return found
+
+
+def _bridged(time: NDArray[np.float64], counts: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Counts (k, n) with lines over what is missing for a short time."""
+    missing = np.isnan(counts)
+    out = counts.copy()
+    for taxel in np.flatnonzero(missing.any(axis=0) & ~missing.all(axis=0)):
+        known = np.flatnonzero(~missing[:, taxel])
+        lost = np.flatnonzero(missing[:, taxel])
+        after = np.searchsorted(known, lost)
+        inside = (after > 0) & (after < len(known))
+        between = time[known[after[inside]]] - time[known[after[inside] - 1]]
+        short = lost[inside][between <= _BRIDGED]
+        out[short, taxel] = np.interp(time[short], time[known], counts[known, taxel])
+    return out
 
 
 def read_take(

@@ -32,7 +32,8 @@ class Windows(NamedTuple):
     """One take in k windows.
 
     `soles`: of each side; `load` (k,) in N; `cop`: (k, 2) in m of each side, NaN where unknown or not alone; `speed`:
-    class (k,) of how fast the load changes, 0 the slowest quarter; `usable` (k,): no count at a converter's end.
+    class (k,) of how fast the load changes, 0 the slowest quarter; `usable` (k,): no count is missing, or at
+    a converter's end.
     """
 
     soles: Mapping[Side, SoleWindows]
@@ -53,13 +54,13 @@ def windows_of(
         return np.asarray(values[: k * width].reshape(k, width, *values.shape[1:]).mean(axis=1))
 
     soles: dict[Side, SoleWindows] = {}
-    clipped = np.zeros(len(take.time), dtype=bool)
+    spoilt = np.zeros(len(take.time), dtype=bool)
     for side, counts in take.counts.items():
         state = LoopState(top[side], 1.0 / take.rate)
         above = np.nan_to_num(counts - offset[side])
         loops = np.array([state.advance(row) for row in above])
         soles[side] = SoleWindows(mean(above), np.array([mean(loops[:, 0]), mean(loops[:, 1])]))
-        clipped |= _at_the_end(counts)
+        spoilt |= _at_the_end(counts) | np.isnan(counts[:, ~np.isnan(counts).all(axis=0)]).any(axis=1)
     assert isinstance(take.load, np.ndarray)  # of all takes but zeros
     load = mean(take.load)
     summed = {side: sole.above.sum(axis=1) for side, sole in soles.items()}
@@ -68,7 +69,7 @@ def windows_of(
     for side, places in take.cop.items():
         alone = every - summed[side] < _ALONE * np.maximum(every, 1e-9)
         cop[side] = np.where(alone[:, None], mean(places), np.nan)
-    usable = ~(mean(clipped.astype(float)) > 0.0) & np.isfinite(load)
+    usable = ~(mean(spoilt.astype(float)) > 0.0) & np.isfinite(load)
     if take.kind == "motion" and np.ptp(take.load) == 0.0:
         usable &= ~_near_steps(summed)
     return Windows(soles, load, cop, _speed_classes(load, soles, top), usable)

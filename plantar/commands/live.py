@@ -54,6 +54,10 @@ def live(
     sinks = [open_sink(text) for text in send or []]
     sole = None if layout is None else named_or_read_layout(layout)
     stream = open_live(source, sole, strict=strict, correct=correct_clocks, kind=kind, counts=counts)
+    if stream.unit == "counts":
+        print_note(
+            "the values are counts, recorded as they are: plantar calibrate, then --counts, makes newtons of them"
+        )
     with parent_folder(output), progress_bar() as progress:
         if page:
             made = _with_page(stream, source, page_address, output, seconds, progress, sinks)
@@ -72,7 +76,7 @@ def _with_page(
     from plantar.viewer.live_session import record_with_page
 
     host, port = ("127.0.0.1", 0) if address is None else host_and_port(address, "page")
-    with LivePage(stream.soles, f"Live: {source}", host, port) as shown:
+    with LivePage(stream.soles, f"Live: {source}", host, port, stream.unit) as shown:
         print_note(f"page: {shown.url}")
         return record_with_page(stream, shown, output, seconds, progress, sinks)
 

@@ -11,14 +11,16 @@ from plantar.common.sides import SIDES, Side
 from plantar.errors import DependencyError, FormatError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import on_one_time
+from plantar.formats.units import find_unit
 from plantar.recordings.mcap_content import MCAP_MAGIC
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, layout_for, sampling
 from plantar.recordings.recording import Recording, Table, read_mcap
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read "/skin/left" and "/skin/right", whose field "force" is in N; else any topics with arrays."""
+    """Read "/skin/left" and "/skin/right", whose field "force" is in N, or in counts; else any topics with arrays."""
     recording = read_mcap(path)
+    raw = _is_raw(recording, options.unit)
     warnings = list(recording.warnings)
     tables: dict[Side, Table] = {}
     for side in SIDES:
@@ -44,8 +46,25 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         feet=feet,
         metadata=dict(recording.metadata),
         warnings=tuple(warnings),
+        raw=raw,
         kind=next((kind for kind in get_args(Kind) if kind == recording.metadata.get("kind")), "robot"),
     )
+
+
+def _is_raw(recording: Recording, stated: str | None) -> bool:
+    """Whether values are counts, as the recording or an option says; FormatError for an option that says otherwise."""
+    counts = recording.metadata.get("unit") == "counts"
+    unit = None if stated is None else find_unit(stated)
+    if unit is None:
+        return counts
+    if unit.kind == "raw":
+        return True
+    if counts or unit.kind != "force" or unit.factor != 1.0:
+        held = "counts" if counts else "forces in N"
+        raise FormatError(
+            f"unit {stated!r} of a Plantar recording, which holds {held}; allowed: N for forces, raw for counts"
+        )
+    return False
 
 
 def _once(table: Table) -> Table:

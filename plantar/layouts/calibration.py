@@ -238,6 +238,7 @@ class CountStream:
         self._known = calibration
         self._time: float | None = None
         self._loops = LoopState(calibration.top, 1.0 / rate)
+        self._above = np.zeros(len(calibration))
         shared = None if layout is None or not calibration.crosstalk else leakage(layout)
         mixed = None if shared is None else np.eye(len(calibration)) + calibration.crosstalk * shared
         self._unmixed = None if mixed is None else np.linalg.inv(mixed)
@@ -251,9 +252,9 @@ class CountStream:
             self._time = time
         read = array(counts, "counts", (len(known),))
         given = np.where(np.abs(read) <= _MOST_COUNTS, read, np.nan) - known.offset
-        above = np.nan_to_num(given)
-        loops = self._loops.advance(above, period)
-        level = above + known.hysteresis[0] * loops[0] + known.hysteresis[1] * loops[1]
+        self._above = np.where(np.isnan(given), self._above, given)  # a missing one lifts no foot
+        loops = self._loops.advance(self._above, period)
+        level = self._above + known.hysteresis[0] * loops[0] + known.hysteresis[1] * loops[1]
         force = response(level * known.gain, known.reference, known.curve, known.curve_deviation)
         if self._unmixed is not None:
             force = self._unmixed @ force

@@ -14,7 +14,7 @@ from plantar.live.arrival import Arrival, Fault, LiveItem, LiveReading, Silence
 from plantar.live.clock_pair import ClockDifference, ClockPair
 from plantar.live.fault_log import FaultLog
 from plantar.live.sole_timeline import SoleTimeline, Timed
-from plantar.live.source import LiveStream, device_errors, in_newtons, opened_source
+from plantar.live.source import LiveStream, Unit, device_errors, in_newtons, opened_source
 from plantar.recordings.pressure_recording import Kind
 from plantar.sensing.reading import Reading
 
@@ -38,6 +38,7 @@ class CheckedStream:
     Attributes:
         soles: Layout of each side.
         kind: What measures.
+        unit: Of the forces: "N" or "counts".
         correct: Whether clocks are corrected.
 
     Example:
@@ -52,6 +53,7 @@ class CheckedStream:
     def __init__(self, stream: LiveStream, strict: bool = False, correct: bool = False) -> None:
         self.soles: Mapping[Side, SoleLayout] = stream.soles
         self.kind: Kind = stream.kind
+        self.unit: Unit = stream.unit
         self._log = FaultLog(strict)
         self._strict = strict
         self.correct = correct and len(stream.soles) > 1

@@ -1,4 +1,4 @@
-"""Packets of a sole's firmware (`plantar/shoes/firmware/sole.c`) on a serial port.
+"""Packets of a sole's firmware (`plantar/shoes/firmware/sole.c`) on serial ports.
 
 Little endian: "PL", version 1, side, sequence (16 bits), time in us (32), number of taxels (16), a value each (16), and
 CRC-16/CCITT-FALSE of all before it. Values are counts until the layout's calibration makes newtons of them.
@@ -111,6 +111,6 @@ class _Clock:
 
 SOURCE = LiveSource(
     "packets",
-    "Packets of a sole's firmware on a serial port: packets:DEVICE@BAUD",
-    partial(port_stream, "packets", packets_of),
+    "Packets of soles' firmware on serial ports: packets:DEVICE@BAUD, or two with a comma between",
+    partial(port_stream, "packets", packets_of, "counts"),
 )

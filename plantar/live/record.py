@@ -12,6 +12,7 @@ from plantar.errors import InputError
 from plantar.live.arrival import LiveEvent, LiveItem, LiveReading, Silence
 from plantar.live.checked_stream import CheckedStream
 from plantar.live.sink import Send
+from plantar.live.step_detector import load_of
 from plantar.percepts.percept import Percept
 from plantar.recordings.foxglove import log_message
 from plantar.recordings.recorder import Recorder
@@ -154,7 +155,7 @@ class LiveRecording:
 
     def _begin(self, start: float) -> None:
         soles = {str(side): sole for side, sole in self._stream.soles.items()}
-        metadata = {"source": "live", "kind": self._stream.kind}
+        metadata = {"source": "live", "kind": self._stream.kind, "unit": self._stream.unit}
         self._recorder = self._open.enter_context(Recorder(self._path, metadata, soles))
         self._skins = {
             side: self._recorder.channel(f"/skin/{side}", [("force", len(sole))])
@@ -212,7 +213,7 @@ class _Foot:
             return ""
         percept = Percept(stream.soles[side], self.last)
         place = percept.position_cop_in_sole
-        load = f"{side} {percept.vertical_force:.0f} N"
+        load = f"{side} {load_of(stream.soles[side], self.last):.0f} {stream.unit}"
         return load if place is None else f"{load} at {round(1e3 * place[0])}, {round(1e3 * place[1])} mm"
 
     def summary(self) -> dict[str, float | None]:

@@ -16,12 +16,10 @@ def _open(address: str, layout: SoleLayout | None) -> LiveStream:
     if not address:
         raise InputError("replay needs a recording; allowed: replay:FILE")
     recording = read_recording(address, layout=layout)
-    if recording.raw:
-        raise InputError(f"{address}: raw counts are no forces in N; allowed: a recording that states its unit")
     soles = {side: foot.layout for side, foot in recording.feet.items() if foot.layout is not None}
     if not soles:
         raise InputError(f"{address}: the places of its cells are not known; allowed: with --layout FILE")
-    return LiveStream(soles, _readings(recording, soles), recording.kind)
+    return LiveStream(soles, _readings(recording, soles), recording.kind, "counts" if recording.raw else "N")
 
 
 def _readings(recording: PressureRecording, soles: Mapping[Side, SoleLayout]) -> Iterator[tuple[Side, Reading]]:

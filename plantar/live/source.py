@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from plantar.common.arguments import instance
 from plantar.common.extensions import extensions
@@ -22,6 +22,10 @@ QUIET = 0.5
 """Time in s without a reading after which a source yields None."""
 
 
+Unit = Literal["N", "counts"]
+"""Of a stream's values: forces, or what a converter counts until a calibration makes forces of it."""
+
+
 class LiveStream(NamedTuple):
     """What arrives of a source.
 
@@ -30,11 +34,13 @@ class LiveStream(NamedTuple):
         readings: A side and its reading each, as they arrive; in their place a `Fault` for what is no reading, and None
             where nothing comes for half a second. Ends with the device, closed when no longer read.
         kind: What measures: a robot's soles, a person's insoles, or a platform.
+        unit: Of the readings' forces.
     """
 
     soles: Mapping[Side, SoleLayout]
     readings: Iterator[Arrival]
     kind: Kind = "robot"
+    unit: Unit = "N"
 
 
 @dataclass(frozen=True)
@@ -86,7 +92,7 @@ def in_newtons(stream: LiveStream) -> LiveStream:
     if not streams:
         raise InputError("the layout holds no calibration; allowed with --counts: one from plantar calibrate")
     soles = {side: sole for side, sole in stream.soles.items() if side in streams}
-    return stream._replace(soles=soles, readings=_converted(stream.readings, streams))
+    return stream._replace(soles=soles, readings=_converted(stream.readings, streams), unit="N")
 
 
 def _converted(arrivals: Iterator[Arrival], streams: Mapping[Side, CountStream]) -> Iterator[Arrival]:

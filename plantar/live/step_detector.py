@@ -1,9 +1,14 @@
 """Heel strikes and toe offs of one foot as its readings come, with the time until each is known."""
 
+import math
 from collections import deque
 from typing import NamedTuple
 
+import numpy as np
+
+from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import Kind
+from plantar.sensing.reading import Reading
 
 _STRIKE = 0.05  # of the range from rest to peak: `plantar.gait.analysis` puts events there, too
 _CONTACT = 0.10  # of it, which a heel strike has to reach to count
@@ -15,6 +20,12 @@ _LEAST_PEAK = 20.0  # N that a foot has to reach: what lies below is no step
 _FORGOTTEN = 8.0  # s after which half of a peak is forgotten
 _SHORTEST_SWING = 0.10  # s off the ground, below which a contact goes on
 _FOLLOWED = 50  # readings over which rest and noise are followed
+
+
+def load_of(sole: SoleLayout, reading: Reading) -> float:
+    """Vertical force in N on all taxels that measure, those beyond their range included; NaN where none does."""
+    force = reading.force * sole.rotations[:, 2, 2]
+    return float(np.nansum(force)) if np.isfinite(force).any() else math.nan
 
 
 class StepEvent(NamedTuple):

@@ -279,6 +279,11 @@ def _checked_times(
     elif np.isfinite(time).all() and (steps >= _LEAST_STEP / rate).all():
         warnings.append("the frames are not evenly spaced: their own times are used")
         return time, rate, tuple(warnings)
+    elif in_order:
+        close = np.append(False, steps < _LEAST_STEP / rate)
+        warnings.append(f"{int(close.sum())} frame(s) come right after the one before: put between it and the next")
+        first = np.maximum.accumulate(np.where(close, -np.inf, time))
+        return _apart(first, float(np.median(forward))), rate, tuple(warnings)
     warnings.append(f"the frame times are not in order: taken from the rate of {rate:g} Hz{_begun_again(time, rate)}")
     return grid, rate, tuple(warnings)
 

@@ -22,7 +22,7 @@ class Stream {
     this.times.push(state.time);
     for (const side of Object.keys(this.soles)) {
       const sole = state.soles[side];
-      this.sums[side].push(sole ? sole.load : NaN);
+      this.sums[side].push(sole && sole.load !== null ? sole.load : NaN);
       this.trails[side].push(sole && sole.cop);
     }
     while (this.times[0] < state.time - SECONDS) {
@@ -56,6 +56,7 @@ class Stream {
   }
 }
 
+for (const place of document.querySelectorAll('.unit')) place.textContent = given.unit;
 const stream = new Stream(given.soles);
 window.latencies = [];
 let waiting = false, full = 20, locate = null, chosen = null, over = false, sound = null;
@@ -66,12 +67,12 @@ function draw() {
   if (!stream.times.length) return;
   for (const side of SIDES) if (state.soles[side]) full = Math.max(full, ...state.soles[side].force.map(v => (v || 0) / 10));
   locate = drawSoles(stream, $('soles'), 0, full);
-  drawForces(stream, $('forces'), SECONDS, SECONDS);
-  $('full').textContent = full.toFixed(0) + ' N';
+  drawForces(stream, $('forces'), SECONDS, SECONDS, given.unit);
+  $('full').textContent = full.toFixed(0);
   $('status').textContent = state.status;
   if (chosen) {
     const force = stream.force(chosen.side, chosen.taxel), id = given.soles[chosen.side].ids[chosen.taxel];
-    $('taxel').textContent = `Taxel ${id}, ${chosen.side}: ${Number.isNaN(force) ? 'not measured' : force.toFixed(1) + ' N'}.`;
+    $('taxel').textContent = `Taxel ${id}, ${chosen.side}: ${Number.isNaN(force) ? 'not measured' : force.toFixed(1) + ' ' + given.unit}.`;
   }
   showMeasures(state.measures);
   showLog(state.log);
@@ -107,7 +108,7 @@ function showLog(lines) {
 function feedback(state) {
   const limit = Number($('limit').value), set = $('limit').value !== '' && limit > 0;
   const above = set ? SIDES.filter(side => state.soles[side] && state.soles[side].load > limit) : [];
-  const text = above.length ? `More than ${limit} N on the ${above.join(' and the ')} sole` : '';
+  const text = above.length ? `More than ${limit} ${given.unit} on the ${above.join(' and the ')} sole` : '';
   if ($('alarm').textContent !== text) $('alarm').textContent = text;
   if (above.length && !over && $('sound').checked) beep();
   over = above.length > 0;

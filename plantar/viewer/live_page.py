@@ -17,6 +17,7 @@ from urllib.parse import parse_qs, urlsplit
 from plantar.common.sides import Side
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
+from plantar.live.source import Unit
 from plantar.viewer.page import asset, framed
 
 ACTIONS = ("zero", "mark", "record")
@@ -36,6 +37,7 @@ class LivePage:
         title: Of the page.
         host: Address that is listened to; 0.0.0.0 for all of the machine.
         port: 0 for a free one.
+        unit: Of the forces: "N" or "counts".
 
     Attributes:
         url: Where the page is.
@@ -51,7 +53,14 @@ class LivePage:
         (True, [])
     """
 
-    def __init__(self, soles: Mapping[Side, SoleLayout], title: str, host: str = "127.0.0.1", port: int = 0) -> None:
+    def __init__(
+        self,
+        soles: Mapping[Side, SoleLayout],
+        title: str,
+        host: str = "127.0.0.1",
+        port: int = 0,
+        unit: Unit = "N",
+    ) -> None:
         self._token = secrets.token_urlsafe(16)
         self._news = threading.Condition()
         self._state = b""
@@ -59,7 +68,7 @@ class LivePage:
         self._ended = False
         self._viewers = threading.Semaphore(_MOST_VIEWERS)
         self._actions: SimpleQueue[str] = SimpleQueue()
-        self._page = _page(soles, title, self._token)
+        self._page = _page(soles, title, self._token, unit)
         try:
             self._server = _Server((host, port), self)
         except (OSError, OverflowError) as error:
@@ -108,9 +117,10 @@ class LivePage:
             return (-1, b"") if self._ended else (self._number, self._state)
 
 
-def _page(soles: Mapping[Side, SoleLayout], title: str, token: str) -> bytes:
+def _page(soles: Mapping[Side, SoleLayout], title: str, token: str, unit: Unit) -> bytes:
     data = {
         "token": token,
+        "unit": unit,
         "soles": {
             side: {
                 "cells": [layout.vertices[list(corners), :2].round(5).tolist() for corners in layout.corners],

@@ -72,7 +72,7 @@ class _Session:
         self._page = page
         self._recording = recording
         self._show = show
-        self._state = LiveState(stream.soles, stream.kind)
+        self._state = LiveState(stream.soles, stream.kind, stream.unit)
         self._records = True
         self._marks = 0
         self._arrived = 0.0

@@ -9,7 +9,8 @@ import numpy as np
 
 from plantar.common.sides import SIDES, Side
 from plantar.layouts.layout import SoleLayout
-from plantar.live.step_detector import StepDetector
+from plantar.live.source import Unit
+from plantar.live.step_detector import StepDetector, load_of
 from plantar.percepts.percept import Percept
 from plantar.recordings.pressure_recording import Kind
 from plantar.sensing.reading import Reading
@@ -26,6 +27,7 @@ class LiveState:
     Args:
         soles: Layout of each side.
         kind: What measures: "robot", "insole", "platform" or "plate".
+        unit: Of the forces; counts give no measures of steps.
 
     Attributes:
         time: Of the latest reading in s.
@@ -41,11 +43,12 @@ class LiveState:
         420.0
     """
 
-    def __init__(self, soles: Mapping[Side, SoleLayout], kind: Kind = "robot") -> None:
+    def __init__(self, soles: Mapping[Side, SoleLayout], kind: Kind = "robot", unit: Unit = "N") -> None:
         self.time = 0.0
         self.log: deque[str] = deque(maxlen=_LINES)
         self._soles = {side: _Sole(layout, kind) for side, layout in soles.items()}
         self._strikes: deque[float] = deque(maxlen=_STEPS + 1)
+        self._unit = unit
 
     def take(self, side: Side, reading: Reading) -> None:
         """Take a reading.
@@ -73,7 +76,7 @@ class LiveState:
         return {
             "time": round(self.time, 4),
             "soles": {side: sole.as_dict() for side, sole in self._soles.items() if sole.reading is not None},
-            "measures": self._measures(),
+            "measures": self._measures() if self._unit == "N" else [],
             "log": list(self.log),
         }
 
@@ -109,7 +112,7 @@ class _Sole:
 
     def take(self, reading: Reading) -> list[float]:
         """Heel strikes in s that a reading settles."""
-        load = self._load(reading)
+        load = load_of(self.layout, reading)
         if self.reading is None:
             self._whole = not load > _CUT
         step = 0.0 if self.reading is None else max(0.0, reading.time - self.reading.time)
@@ -143,14 +146,11 @@ class _Sole:
         assert self.reading is not None
         percept = Percept(self.layout, self.reading)
         cop = percept.position_cop_in_sole
+        load = load_of(self.layout, self.reading)
         tenths = np.round(10.0 * self.reading.force)
         return {
             "force": [None if value != value else int(value) for value in tenths.tolist()],
-            "load": round(float(percept.vertical_force), 1),
+            "load": None if math.isnan(load) else round(load, 1),
             "cop": None if cop is None else [round(value, 4) for value in cop.tolist()],
             "polygon": percept.support_polygon_in_sole.round(4).tolist(),
         }
-
-    def _load(self, reading: Reading) -> float:
-        force = reading.force * self.layout.rotations[:, 2, 2]
-        return float(np.nansum(force)) if np.isfinite(force).any() else math.nan

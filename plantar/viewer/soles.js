@@ -82,7 +82,7 @@ function nice(least) {
   return power * [1, 2, 5, 10].find(k => k * power >= least * (1 - 1e-9));
 }
 
-function drawForces(walk, canvas, time, end) {
+function drawForces(walk, canvas, time, end, unit = 'N') {
   const {pen, width, height} = flat(canvas), most = Math.max(...SIDES.map(s => walk.totals[s] ? walk.totals[s].reduce((a, b) => Math.max(a, b || 1), 1) : 1));
   const x = t => width * t / Math.max(end, 1e-6), y = f => height - 16 - (height - 28) * f / most;
   pen.font = '12px system-ui, sans-serif';
@@ -91,7 +91,7 @@ function drawForces(walk, canvas, time, end) {
   const marks = [];
   for (let f = 0, by = nice(most / 4.5); f <= most; f += by) {
     pen.beginPath(); pen.moveTo(0, y(f)); pen.lineTo(width, y(f)); pen.stroke();
-    marks.push([f ? f + ' N' : '', 4, y(f) - 3]);
+    marks.push([f ? f + ' ' + unit : '', 4, y(f) - 3]);
   }
   for (let t = 0, by = nice(60 * end / width); t <= end; t += by) marks.push([Number(t.toFixed(3)) + ' s', x(t) + 3, height - 3]);
   for (const side of SIDES) {

@@ -1,7 +1,9 @@
-/* A sole on a PC: a load that steps and rolls over taxels on rows and columns, with every current of that circuit.
+/* A sole on a PC: a body's load on taxels on rows and columns, with every current of that circuit.
  *
- * Environment: SOLE_DEVICE, where bytes go (else to stdout); SOLE_SECONDS, after which it ends; SOLE_FAULTS, a number: 0
- * none, 1 noise and drift, 2 also lost packets and wrong bytes; SOLE_PRESSED, an index of a taxel that alone is pressed. */
+ * Environment: SOLE_DEVICE, where bytes go (else to stdout); SOLE_SECONDS, after which it ends; SOLE_MOTION, what the body
+ * does: walk, lean from foot to foot and about each, or air; SOLE_FAULTS, a number: 0 none, 1 noise, drift and taxels that
+ * differ by 15 %, 2 also lost packets and wrong bytes; SOLE_PRESSED, an index of a taxel that alone is pressed; SOLE_SPEED,
+ * how much faster than by the clock all of it runs. Two of them, a foot each, carry one body. */
 #define _DEFAULT_SOURCE
 #include "sole.h"
 #include "hardware.h"
@@ -16,14 +18,17 @@
 
 #define SENSE 1e-3     /* S, a column's resistor to ground: 1 kOhm */
 #define DRIVER 25e-3   /* S, a row's driver: 40 Ohm */
-#define WEIGHT 300.0   /* N on the sole in stance */
-#define STRIDE 1.0     /* s, of which 0.6 in stance */
+#define WEIGHT 300.0   /* N of the body */
+#define STRIDE 1.0     /* s, of which 0.6 in stance, 0.1 at each end of it on both feet */
+#define TURN 6.283185307179586
+#define SCATTER 0.15   /* relative standard deviation of the taxels' gains */
 #define SPREAD 18.0    /* mm, standard deviation of the load about its center */
 #define SIEMENS 0.05e-3 /* a newton on a taxel */
 #define IDLE 2e-6      /* S without load */
 
 static int port = STDOUT_FILENO, faults, pressed = -1, driven = -1;
-static double ends, weight_of[TAXELS], column_volts[32 + TAXELS], row_volts[64];
+static double ends, speed = 1.0, gain_of[TAXELS], weight_of[TAXELS], column_volts[32 + TAXELS], row_volts[64];
+static const char *motion;
 static uint32_t began;
 static uint64_t state = 88172645463325252u;
 
@@ -34,14 +39,16 @@ static double chance(void) { /* 0 to 1, by xorshift */
     return (double)(state >> 11) / 9007199254740992.0;
 }
 
-static double normal(void) { return sqrt(-2.0 * log(chance() + 1e-300)) * cos(6.283185307179586 * chance()); }
+static double normal(void) { return sqrt(-2.0 * log(chance() + 1e-300)) * cos(TURN * chance()); }
 static double number(const char *name, double other) { return getenv(name) ? atof(getenv(name)) : other; }
 
-uint32_t hardware_time_us(void) {
+static double clock_s(void) { /* the same on both feet */
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint32_t)((uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u);
+    return speed * ((double)now.tv_sec + 1e-9 * (double)now.tv_nsec);
 }
+
+uint32_t hardware_time_us(void) { return (uint32_t)(uint64_t)(1e6 * clock_s()); }
 
 static double seconds(void) { return 1e-6 * (double)(uint32_t)(hardware_time_us() - began); }
 
@@ -53,6 +60,11 @@ void hardware_begin(int rows, int columns) {
     ends = number("SOLE_SECONDS", 5.0);
     faults = (int)number("SOLE_FAULTS", 0.0);
     pressed = (int)number("SOLE_PRESSED", -1.0);
+    speed = number("SOLE_SPEED", 1.0);
+    motion = getenv("SOLE_MOTION") ? getenv("SOLE_MOTION") : "walk";
+    if (speed <= 0.0 || (strcmp(motion, "walk") && strcmp(motion, "lean") && strcmp(motion, "air"))) exit(2);
+    state += 7919u * SIDE;
+    for (int k = 0; k < TAXELS; k++) gain_of[k] = faults ? exp(SCATTER * normal()) : 1.0;
     began = hardware_time_us();
 }
 
@@ -60,27 +72,47 @@ int hardware_running(void) { return seconds() < ends; }
 
 void hardware_wait_until_us(uint32_t time) {
     int32_t left = (int32_t)(time - hardware_time_us());
-    if (left > 0) usleep((useconds_t)left);
+    if (left > 0) usleep((useconds_t)(left / speed));
+}
+
+/* N that this foot carries at a time, and where on it: shares of its length from the heel and of its width. */
+static double carried(double time, double *along, double *across) {
+    if (!strcmp(motion, "lean")) {
+        double to_left = 0.5 + 0.4 * sin(TURN * time / 8.0);
+        *along = 0.5 + 0.3 * sin(TURN * time / 3.1);
+        *across = 0.5 + 0.25 * sin(TURN * time / 1.7);
+        return WEIGHT * (SIDE ? 1.0 - to_left : to_left);
+    }
+    double phase = fmod(time / STRIDE + 0.5 * SIDE, 1.0);
+    *along = fmin(1.0, phase / 0.6);
+    *across = 0.5;
+    return strcmp(motion, "air") ? WEIGHT * fmax(0.0, fmin(1.0, fmin(phase / 0.1, (0.6 - phase) / 0.1))) : 0.0;
+}
+
+static double range_of(int axis, double *low) { /* of the taxels' places, in mm */
+    double high = -1e9;
+    *low = 1e9;
+    for (int k = 0; k < TAXELS; k++) {
+        *low = fmin(*low, PLACE[k][axis]);
+        high = fmax(high, PLACE[k][axis]);
+    }
+    return high - *low;
 }
 
 /* Conductances of all taxels now: the load's, which drifts by 3 % a decade of time. */
 static void press(void) {
-    double now = seconds(), phase = fmod(now, STRIDE) / STRIDE, sum = 0.0, low = 1e9, high = -1e9;
+    double now = seconds(), sum = 0.0, along, across, back, side;
+    double newtons = carried(clock_s(), &along, &across), length = range_of(0, &back), width = range_of(1, &side);
     for (int k = 0; k < TAXELS; k++) {
-        low = fmin(low, PLACE[k][0]);
-        high = fmax(high, PLACE[k][0]);
-    }
-    double center = low + (high - low) * fmin(1.0, phase / 0.6);
-    for (int k = 0; k < TAXELS; k++) {
-        double x = (PLACE[k][0] - center) / SPREAD, y = PLACE[k][1] / SPREAD;
+        double x = (PLACE[k][0] - back - along * length) / SPREAD, y = (PLACE[k][1] - side - across * width) / SPREAD;
         weight_of[k] = exp(-0.5 * (x * x + y * y));
         sum += weight_of[k];
     }
-    double load = pressed < 0 && phase < 0.6 ? WEIGHT / sum : 0.0;
     double drift = faults ? 1.0 + 0.03 * log10(1.0 + now) : 1.0;
     for (int k = 0; k < TAXELS; k++) {
-        double newtons = pressed == k ? (now > 0.3 ? 15.0 : 0.0) : load * weight_of[k];
-        weight_of[k] = IDLE + SIEMENS * newtons * drift;
+        double force = newtons * weight_of[k] / sum;
+        if (pressed >= 0) force = pressed == k && now > 0.3 ? 15.0 : 0.0;
+        weight_of[k] = IDLE + SIEMENS * gain_of[k] * force * drift;
     }
 }
 
@@ -149,9 +181,8 @@ void hardware_send(const uint8_t *bytes, size_t count) {
     }
     for (size_t sent = 0; sent < count;) {
         ssize_t taken = write(port, copy + sent, count - sent);
-        if (taken > 0) sent += (size_t)taken;
-        else if (!hardware_running()) return;
-        else usleep(200);
+        if (taken <= 0) return; /* nobody listens: the rest is lost, as it is on USB */
+        sent += (size_t)taken;
     }
 }
 

@@ -7,9 +7,9 @@ import time
 import numpy as np
 import pytest
 
-from plantar import InputError, PlantarError, grid_layout, mirrored
+from plantar import FormatError, InputError, PlantarError, grid_layout, mirrored
 from plantar.commands.live import live
-from plantar.formats import read_recording
+from plantar.formats import ReadOptions, read_recording
 from plantar.live import CheckedStream, LiveSource, LiveStream, open_live
 from plantar.live.fault_log import KINDS
 from plantar.live.record import record
@@ -179,8 +179,15 @@ def test_a_replayed_recording_and_a_layout_are_not_replaced(tmp_path):
 
 def test_raw_counts_are_not_replayed_as_newtons(tmp_path):
     np.savez(tmp_path / "raw.npz", left=np.ones((50, len(SOLE))), rate_hz=50.0)
-    with pytest.raises(InputError, match="raw counts are no forces in N"):
-        open_live(f"replay:{tmp_path / 'raw.npz'}", SOLE)
+    stream = open_live(f"replay:{tmp_path / 'raw.npz'}", SOLE)
+    assert stream.unit == "counts"
+    record(stream, tmp_path / "counts.mcap")
+    again = read_recording(tmp_path / "counts.mcap")
+    assert again.raw
+    with pytest.raises(FormatError, match="holds counts; allowed: N for forces, raw for counts"):
+        read_recording(tmp_path / "counts.mcap", options=ReadOptions(unit="N"))
+    with pytest.raises(InputError, match="the layout holds no calibration"):
+        open_live(f"replay:{tmp_path / 'counts.mcap'}", SOLE, counts=True)
 
 
 def test_ctrl_c_ends_a_recording(tmp_path):

@@ -209,3 +209,38 @@ def test_a_hostile_program_on_a_pipe_harms_nothing(tmp_path):
     assert b'"faults"' in out
     assert len(read_mcap(tmp_path / "run.mcap").topics["/skin/left"]) >= 2000
     assert int(err.split()[-1]) < 250_000  # kB
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pseudo-terminals")
+def test_a_port_a_foot_whose_boards_do_not_wait_for_each_other():
+    ends = [os.openpty() for _ in range(2)]
+    for master, _ in ends:
+        os.write(master, line(7.0) * 3)  # what was sent before anybody listened is no reading
+    stream = open_live("serial:" + ",".join(os.ttyname(slave) for _, slave in ends), SOLE)
+    came = {"left": [], "right": []}
+    readings = stream.readings
+    for k in range(60):
+        for (master, _), side in zip(ends, came, strict=True):
+            if side == "left" or k % 3 == 0:  # one board is three times as fast
+                os.write(master, line_of(side, Reading(0.01 * k, np.full(len(SOLE), 2.0))))
+    while len(came["left"]) < 60 or len(came["right"]) < 20:
+        side, reading = next(readings)
+        came[side].append(reading.time)
+    os.write(ends[1][0], line(0.9) + line_of("right", Reading(0.9, np.full(len(SOLE), 2.0))))
+    assert next(readings)[0] == "right"
+    stream.close()
+    for pair in ends:
+        for end in pair:
+            os.close(end)
+    assert came == {"left": [0.01 * k for k in range(60)], "right": [0.01 * k for k in range(0, 60, 3)]}
+    assert stream.faults["stranger"] == 1  # the right foot's board called itself left once
+
+
+def test_ports_are_named_once_and_all_of_them_open(tmp_path):
+    master, slave = os.openpty()
+    with pytest.raises(InputError, match="allowed: each of them once"):
+        open_live(f"serial:{os.ttyname(slave)},{os.ttyname(slave)}", SOLE)
+    with pytest.raises(InputError, match=r"cannot be opened: No such file"):
+        open_live(f"serial:{os.ttyname(slave)},{tmp_path / 'none'}", SOLE)
+    os.close(master)
+    os.close(slave)

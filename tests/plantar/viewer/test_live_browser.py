@@ -45,7 +45,7 @@ def test_it_draws_what_comes_and_axe_finds_nothing(tmp_path, dark, width):
         "setInterval(() => take({data: JSON.stringify(states[k++ % states.length])}), 16); } };</script>"
     )
     page = tmp_path / "live.html"
-    text = _page(SOLES, "Live: test", "token").decode()
+    text = _page(SOLES, "Live: test", "token", "N").decode()
     page.write_text(
         text.replace("connect-src 'self'", "connect-src 'none'", 1).replace("</head>", source + "</head>", 1)
     )
