@@ -36,7 +36,7 @@ if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
 if kernels.problem and kernels.problem != "none of them is compiled":
     pytest.exit(kernels.form_text(), returncode=4)
 
-# Some ten thousand tests are millions of objects that stay: looking through them for garbage again and again, while they
+# Ten thousand tests are millions of objects that stay: looking through them for garbage again and again, while they
 # are collected, takes a third of that time.
 gc.disable()
 
