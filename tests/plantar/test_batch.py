@@ -3,12 +3,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import InputError, ReadingError, batch, fit_ground_plane, hex_layout, kernels
 from plantar.batch import blocks, loads, support_polygons, wrenches
 from plantar.layouts.curved_sole import rotations_to_normals
+
+from ..examples import examples
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 SOLE = hex_layout(OUTLINE)
@@ -125,7 +127,7 @@ def test_other_bad_input_is_named():
 
 
 @given(seeds)
-@settings(max_examples=30)
+@examples(30)
 def test_ground_planes_are_those_of_the_frames(seed):
     rng = np.random.default_rng(seed)
     slope = rng.uniform(-0.2, 0.2, (20, 1)) * SOLE.positions[:, 0]

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -10,6 +10,8 @@ from plantar import kernels
 from plantar.errors import InputError
 from plantar.gait.plan.vrp_plan import VrpPlan
 from plantar.kernels.mechanics import pendulum
+
+from ...examples import examples
 
 OMEGA = 3.5
 
@@ -31,7 +33,7 @@ def test_waypoints_of_a_constant_vrp_are_the_corrected_equation_4_14():
     assert not np.allclose(start, printed, atol=1e-2)
 
 
-@settings(max_examples=30, deadline=None)
+@examples(30)
 @given(st.integers(0, 10**6))
 def test_dcm_and_com_satisfy_their_equations(seed):
     plan = random_plan(seed)

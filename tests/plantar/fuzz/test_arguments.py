@@ -5,12 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import plantar
 from plantar.errors import InputError
 
+from ...examples import examples
 from .arguments import MEMBERS, complaint, same_answer
 from .public_calls import INNER, ROOMS, Argument, Call, array_functions, public_calls
 
@@ -58,7 +59,7 @@ def test_all_wrong_arguments(name, array):
 
 
 @given(st.sampled_from(ARRAYS), st.sampled_from(sorted(MEMBERS)), st.integers(0, 2**32 - 1))
-@settings(max_examples=100)
+@examples(100)
 def test_any_wrong_argument(place, member, seed):
     name, array = place
     assert complaint(CALLS[name], array, member, np.random.default_rng(seed)) is None

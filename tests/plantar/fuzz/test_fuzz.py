@@ -6,11 +6,12 @@ distances, temperatures and accelerations with faults (`soles.py`). A warning of
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.geometry import polygon
 
+from ...examples import examples
 from .members import MEMBER_CHECKS
 from .shapes import SHAPE_CHECKS
 from .soles import block_of, stress_soles
@@ -26,7 +27,7 @@ blocks = st.builds(
 
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__.strip("_"))
 @given(block=blocks)
-@settings(max_examples=5, deadline=None)
+@examples(5)
 def test_odd_readings(check, block):
     check(block)
 
@@ -34,7 +35,7 @@ def test_odd_readings(check, block):
 @pytest.mark.long
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__.strip("_"))
 @given(block=blocks)
-@settings(max_examples=300, deadline=None)
+@examples(300)
 def test_many_odd_readings(check, block):
     check(block)
 

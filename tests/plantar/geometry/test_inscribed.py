@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout
@@ -25,6 +25,7 @@ from plantar.geometry.polygon import area, closest_point, convex_hull, inner_off
 from plantar.kernels import compiled
 from plantar.layouts.hex_lattice import HexLattice
 
+from ...examples import examples
 from ..references import outline_rectangle_area, parallelogram_area, rectangle_area
 
 seeds = st.integers(0, 2**32 - 1)
@@ -78,7 +79,7 @@ def test_triangle_where_the_linear_walk_fails():
     assert area(inscribed_triangle(polygon)) == best
 
 
-@settings(max_examples=10)
+@examples(10)
 @given(seeds)
 def test_parallelogram_is_the_best_of_a_search(seed):
     hull = random_hull(seed)
@@ -89,7 +90,7 @@ def test_parallelogram_is_the_best_of_a_search(seed):
 
 
 @pytest.mark.long
-@settings(max_examples=10)
+@examples(10)
 @given(seeds)
 def test_rectangle_is_the_best_of_a_search(seed):
     hull = random_hull(seed)
@@ -106,7 +107,7 @@ def test_rectangle_of_the_transposed_polygon_is_the_same(seed):
     assert area(inscribed_rectangle(flipped)) == pytest.approx(area(inscribed_rectangle(hull)), rel=1e-12)
 
 
-@settings(max_examples=25 if compiled else 3)
+@examples(25 if compiled else 3)
 @given(seeds)
 def test_rectangle_at_any_angle_is_the_best_of_a_dense_scan(seed):
     hull = random_hull(seed)
@@ -117,7 +118,7 @@ def test_rectangle_at_any_angle_is_the_best_of_a_dense_scan(seed):
 
 
 @pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6])
-@settings(max_examples=20)
+@examples(20)
 @given(seeds)
 def test_rectangle_at_any_angle_of_a_needle(width, seed):
     """Its summits are as narrow as the needle is slim; the reference is a scan about its length, ever finer."""
@@ -209,7 +210,7 @@ def as_shape(outline):
     return shapely.union_all([shapely.Polygon(part[0], part[1:]) for part in outline.islands])
 
 
-@settings(max_examples=8)
+@examples(8)
 @given(seeds)
 def test_rectangle_in_outline_is_no_smaller_than_a_search_finds(seed):
     outline = random_contact(seed)

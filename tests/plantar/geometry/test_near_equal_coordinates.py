@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.geometry.cell_cutting import CellCutter
@@ -37,6 +37,7 @@ from plantar.geometry.polygon import (
 from plantar.kernels.geometry.few_points import FewPoints
 from plantar.percepts.sole_pose import feet_support_polygon
 
+from ...examples import examples
 from ..references import exact_hull, turn
 
 HAIRS = (0.0, 1e-17, 1e-16, 1e-13, 1e-11, 3e-9, 1e-7, 1e-6)  # m
@@ -75,7 +76,7 @@ def test_a_corner_three_nanometres_beyond_another_one_costs_no_corner():
     assert area(convex_hull(LANDED)) == hull.area()
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(near_equal(least=1))
 def test_hulls_are_those_in_exact_fractions(drawn):
     _, points, _ = drawn
@@ -133,7 +134,6 @@ MEASURES = {
 
 
 @pytest.mark.parametrize("measure", MEASURES)
-@settings(max_examples=40)
 @given(near_equal())
 def test_a_hair_changes_a_measure_by_a_hair(measure, drawn):
     """Rings hold all corners, also those on edges and those a hair apart; a ring without hairs is the reference."""

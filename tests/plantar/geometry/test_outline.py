@@ -5,7 +5,7 @@ import pickle
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout, kernels
@@ -14,6 +14,8 @@ from plantar.geometry.inscribed import rectangle_in_outline
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.cell_edges import edge_table
 from plantar.layouts.layout import SoleLayout
+
+from ...examples import examples
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -167,7 +169,7 @@ def test_clockwise_cells_are_turned():
     assert concave_outline(layout_of(cells), np.ones(12, dtype=bool)).area == pytest.approx(12e-4, rel=1e-12)
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(seeds)
 def test_cells_that_overlap_are_united(seed):
     rng = np.random.default_rng(seed)

@@ -4,13 +4,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar.geometry.polygon import closest_point
 from plantar.kernels import python_form
 from plantar.kernels.gait import dcm_feedback
+
+from ...examples import examples
 
 FORMS = (dcm_feedback, python_form("dcm_feedback"))
 OMEGA, GAIN, PERIOD, FILTER = 3.4, 2.0, 0.005, 0.02
@@ -26,7 +28,7 @@ def feedback(module, after):
 
 
 @pytest.mark.parametrize("after", [True, False])
-@settings(max_examples=25)
+@examples(25)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_it_decides_what_numpy_would(after, seed):
     rng = np.random.default_rng(seed)
@@ -100,7 +102,6 @@ def foot_at(rng, y):
 
 
 @pytest.mark.parametrize("stance", [0, 1, 2])
-@settings(max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_shares_are_those_of_the_projected_zmp(stance, seed):
     rng = np.random.default_rng(seed)

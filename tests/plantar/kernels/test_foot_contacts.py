@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.kernels import compiled, python_form
 from plantar.kernels.contacts import foot_contacts, ground_reaction
 from plantar.kernels.geometry import convex, few_points
 from plantar.kernels.geometry.hull import convex_hull
+
+from ...examples import examples
 
 REACH = 5e-4
 OWN = np.array([1, 0, 1, 0, 0], dtype=np.uint8)  # geoms 0 and 2 are the foot's
@@ -66,7 +68,7 @@ def seen(foot, origin):
 
 
 @pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):
     one, other = (gathered(m, seed) for m in (foot_contacts, python_form("foot_contacts")))
@@ -85,7 +87,7 @@ def test_the_two_forms_agree_to_the_last_bit(seed):
     assert mine == same
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_those_of_the_foot_are_gathered_with_forces_in_the_world(seed):
     (geoms, positions, frames, gaps, addresses, sizes), numbers = listed(seed)
@@ -108,7 +110,7 @@ def test_those_of_the_foot_are_gathered_with_forces_in_the_world(seed):
         assert torques[row] == pytest.approx(local[3:] @ axes, abs=1e-12)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_the_ground_s_sums_are_numpy_s(seed):
     foot = gathered(foot_contacts, seed)
@@ -121,7 +123,6 @@ def test_the_ground_s_sums_are_numpy_s(seed):
 
 
 @pytest.mark.parametrize("height", [np.nan, 0.3])
-@settings(max_examples=40)
 @given(seeds)
 def test_the_ground_s_reaction_is_that_of_both_feet_in_both_forms(height, seed):
     forms = (foot_contacts, ground_reaction), (python_form("foot_contacts"), python_form("ground_reaction"))
@@ -159,7 +160,7 @@ def test_the_ground_s_reaction_is_that_of_both_feet_in_both_forms(height, seed):
     assert margin == hull_of(together).margin(*zmp)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_hulls_of_gathered_points_are_those_of_a_list_and_their_measures_those_of_arrays(seed):
     rng = np.random.default_rng(seed)
@@ -174,7 +175,7 @@ def test_hulls_of_gathered_points_are_those_of_a_list_and_their_measures_those_o
         assert hull.area() == pytest.approx(convex.area(ring))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_each_pair_has_its_contacts_wrench_and_points(seed):
     foot, origin = gathered(foot_contacts, seed), np.array([0.5, -0.2, 0.1])

@@ -7,13 +7,14 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout, kernels
 from plantar.kernels.geometry import clean, convex, hull
 from plantar.kernels.skin import frames, sole
 
+from ...examples import examples
 from ..fuzz.dirty_rings import dirty_ring
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -56,7 +57,7 @@ def test_the_forms_come_from_one_source():
 
 
 @given(seeds)
-@settings(max_examples=100)
+@examples(100)
 def test_convex_kernels_agree_to_the_last_bit(seed):
     cloud = cloud_of(seed)
     rng = np.random.default_rng(seed)
@@ -79,7 +80,7 @@ def test_convex_kernels_agree_to_the_last_bit(seed):
 
 
 @given(seeds)
-@settings(max_examples=100)
+@examples(100)
 def test_dirty_rings_agree_to_the_last_bit(seed):
     rng = np.random.default_rng(seed)
     ring = dirty_ring(rng)
@@ -96,7 +97,7 @@ def test_dirty_rings_agree_to_the_last_bit(seed):
 
 
 @given(seeds, st.sampled_from(LAYOUTS))
-@settings(max_examples=60)
+@examples(60)
 def test_kernels_of_a_sole_agree_to_the_last_bit(seed, layout):
     rng = np.random.default_rng(seed)
     n = len(layout)

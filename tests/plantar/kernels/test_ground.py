@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.kernels import compiled, python_form
 from plantar.kernels.skin import ground
+
+from ...examples import examples
 
 SOLE = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
 seeds = st.integers(0, 2**32 - 1)
@@ -28,7 +30,7 @@ def readings(seed):
 
 
 @pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):
     one, other = (fitted(m, readings(seed), 2e-3) for m in (ground, python_form("ground")))

@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 import scipy.optimize
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from plantar.geometry.polygon import convex_hull, inner_offset
 from plantar.kernels import compiled, python_form
 from plantar.kernels.contacts import pressed_patch
+
+from ...examples import examples
 
 seeds = st.integers(0, 2**32 - 1)
 FORMS = (pressed_patch, python_form("pressed_patch"))
@@ -37,7 +39,7 @@ def pressed(module, seed: int):
 
 
 @pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):
     for one, other in zip(*(pressed(module, seed) for module in FORMS), strict=True):
@@ -47,7 +49,7 @@ def test_the_two_forms_agree_to_the_last_bit(seed):
     assert keys == {tuple(sorted({(round(x / 1e-4), round(y / 1e-4)) for x, y in points}))}
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_forces_have_the_load_s_wrench_where_cells_can_carry_it(seed):
     for done, out, force, point, (u, _) in pressed(pressed_patch, seed):
@@ -70,7 +72,7 @@ def test_a_patch_of_which_nothing_carried_yet_says_so():
         assert out == pytest.approx([0.0, 0.5, 4.5])
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 @example(4)
 @example(22)
@@ -116,7 +118,7 @@ def spread(module, seed: int):
 
 
 @pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
-@settings(max_examples=100)
+@examples(100)
 @given(seeds)
 def test_both_forms_of_the_foundation_agree(seed):
     one, other = (spread(m, seed) for m in (pressed_patch, python_form("pressed_patch")))
@@ -125,7 +127,7 @@ def test_both_forms_of_the_foundation_agree(seed):
     assert (one[3] == other[3]).all()
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(seeds)
 def test_forces_add_up_to_the_load_and_its_moments(seed):
     whole, part, carried, forces = spread(pressed_patch, seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout
@@ -11,6 +11,8 @@ from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.sim.sensing import sole_pressure
 from plantar.sim.sensing.sole_pressure import SolePressure
+
+from ...examples import examples
 
 LAYOUT = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], cell_area=600e-6)
 REACH = 5e-4
@@ -38,7 +40,6 @@ def foot_of(ids, vectors, gaps, carries, module=None):
     return foot
 
 
-@settings(max_examples=40, deadline=None)
 @given(seeds)
 def test_all_contacts_at_once_carry_what_each_pair_carries_alone(seed):
     together, alone = SolePressure(LAYOUT), SolePressure(LAYOUT)
@@ -52,7 +53,7 @@ def test_all_contacts_at_once_carry_what_each_pair_carries_alone(seed):
 
 
 @pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(seeds)
 def test_the_two_forms_agree_to_the_last_bit(seed):
     compiled, other = SolePressure(LAYOUT), SolePressure(LAYOUT)
@@ -67,7 +68,7 @@ def test_the_two_forms_agree_to_the_last_bit(seed):
             assert np.array_equal(one, compiled.springs.forces)
 
 
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(seeds)
 def test_contacts_in_the_world_press_where_the_sole_sees_them(seed):
     rng = np.random.default_rng(seed)

@@ -2,18 +2,20 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.kernels import python_form
 from plantar.kernels.joints import setpoints
+
+from ...examples import examples
 
 PERIOD, STEP, SHARE, LEFT = 0.005, 0.001, 0.2, 0.8
 FORMS = (setpoints, python_form("setpoints"))
 
 
 @pytest.mark.parametrize("limited", [True, False])
-@settings(max_examples=30)
+@examples(30)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_it_writes_what_numpy_would(limited, seed):
     rng = np.random.default_rng(seed)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout
@@ -12,6 +12,8 @@ from plantar.geometry.polygon import convex_hull
 from plantar.kernels import compiled, python_form
 from plantar.kernels.geometry import outline, shapes
 from plantar.layouts.cell_edges import edge_table
+
+from ...examples import examples
 
 pytestmark = pytest.mark.skipif(not compiled, reason="without a compiler there is one form only")
 
@@ -41,7 +43,7 @@ def same(a, b):
     return np.array_equal(np.asarray(a), np.asarray(b), equal_nan=True)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds)
 def test_shapes_of_convex_polygons_agree_to_the_last_bit(seed):
     polygon = np.ascontiguousarray(polygons(seed))
@@ -55,7 +57,6 @@ def test_shapes_of_convex_polygons_agree_to_the_last_bit(seed):
     assert same(ours.bounding_box(polygon), oracle.bounding_box(polygon))
 
 
-@settings(max_examples=40)
 @given(seeds, st.floats(0.0, 1.0), st.floats(-3.0, 3.0))
 def test_outlines_and_their_rectangles_agree_to_the_last_bit(seed, share, angle):
     table = edge_table(SOLE.vertices[:, :2], SOLE.corners)

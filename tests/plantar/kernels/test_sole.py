@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import ReadingError, hex_layout
@@ -15,6 +15,7 @@ from plantar.kernels.skin.sole import SoleKernel
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.sensing.health import dead_taxels, saturated_taxels
 
+from ...examples import examples
 from ..references import hull_area_exact
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
@@ -42,7 +43,7 @@ def corners_of(layout, active):
 
 
 @given(seeds, layouts)
-@settings(max_examples=100)
+@examples(100)
 def test_hull_is_that_of_the_active_cells_corners(seed, name):
     layout = LAYOUTS[name]
     rng = np.random.default_rng(seed)
@@ -102,7 +103,7 @@ def test_faults_are_the_dead_and_the_saturated_taxels(limit):
 
 
 @given(seeds, layouts, st.sampled_from([-math.inf, 0.0, 1.0, 5.0]), st.sampled_from([30.0, 785.0, math.inf]))
-@settings(max_examples=100)
+@examples(100)
 def test_loads_of_an_unsaturated_sole_are_those_of_all_columns(seed, name, threshold, saturation):
     layout, rng = LAYOUTS[name], np.random.default_rng(seed)
     flat = layout.kernel

@@ -5,13 +5,15 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar.kernels import python_form
 from plantar.kernels.base import fused
 from plantar.kernels.gait import sole_admittance
+
+from ...examples import examples
 
 FORMS = (sole_admittance, python_form("sole_admittance"))
 PERIOD, SHARE, GAIN, BACK, RELEASE = 0.005, 0.2, 1e-3, 1.0, 8.0
@@ -27,7 +29,6 @@ def correction(foot):
     return np.array([foot.roll, foot.pitch, foot.shift])
 
 
-@settings(max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_it_moves_as_numpy_would(seed):
     rng = np.random.default_rng(seed)
@@ -91,7 +92,7 @@ def both(name, *arguments):
     return one
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_soles_are_turned_raised_and_pressed_as_numpy_would(seed):
     rng = np.random.default_rng(seed)
@@ -114,7 +115,7 @@ def test_soles_are_turned_raised_and_pressed_as_numpy_would(seed):
     np.testing.assert_allclose(place, position[:2] + level[:2, :2] @ center, rtol=1e-12, atol=1e-12)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(a=numbers, b=numbers, c=numbers)
 def test_a_fused_multiply_add_is_rounded_once(a, b, c):
     with decimal.localcontext(prec=2500, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN):

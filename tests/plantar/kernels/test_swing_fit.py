@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import kernels
 from plantar.kernels.gait import swing_fit
+
+from ...examples import examples
 
 INTERPRETED = kernels.python_form("swing_fit")
 
@@ -28,7 +30,7 @@ def path(form, seed: int, now: float | None = None) -> tuple[np.ndarray, np.ndar
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(max_examples=30)
+@examples(30)
 def test_both_forms_agree_to_the_last_bit(seed):
     assert np.array_equal(path(swing_fit, seed)[0], path(INTERPRETED, seed)[0])
 

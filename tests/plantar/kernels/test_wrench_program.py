@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar.kernels import python_form
 from plantar.kernels.mechanics import wrench_program
+
+from ...examples import examples
 
 FORMS = (wrench_program, python_form("wrench_program"))
 WEIGHT, LENGTH, NET, PRESSURE, HORIZONTAL = 600.0, 0.1, 1e4, 0.3, 50.0
@@ -38,7 +40,6 @@ def contacts_of(rng, count):
     return [(rng.normal(size=3), Rotation.from_rotvec(rng.normal(size=3)).as_matrix()) for _ in range(count)]
 
 
-@settings(max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 4))
 def test_it_fills_the_program_that_numpy_would(seed, count):
     rng = np.random.default_rng(seed)
@@ -105,7 +106,7 @@ def test_numbers_that_are_not_finite_are_told(module):
         assert np.isnan(form.kernel.finish(unknowns, "ab")[0])
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 3))
 def test_the_least_cost_is_numpy_s_where_it_meets_the_constraints(seed, count):
     rng = np.random.default_rng(seed)

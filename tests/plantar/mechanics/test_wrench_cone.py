@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from plantar.errors import InputError
 from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
+
+from ...examples import examples
 
 ASYMMETRIC = Rectangle(-0.08, 0.13, -0.03, 0.09)
 
@@ -62,7 +64,7 @@ def test_the_printed_yaw_limits_are_not_the_hull():
     assert (rays @ wrench_cone(ASYMMETRIC, mu).T).max() < 1e-12
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(
     seed=st.integers(0, 10**6),
     low=st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)),

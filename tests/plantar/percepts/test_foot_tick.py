@@ -1,16 +1,18 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import InputError, Percept, Reading, hex_layout, laid_over, walking_tick
 from plantar.geometry.polygon import closest_point, inner_offset
 
+from ...examples import examples
+
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 SOLES = {"flat": hex_layout(OUTLINE), "curved": laid_over(hex_layout(OUTLINE), lambda x, y: x * x - y * y)}
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(
     st.integers(0, 2**32 - 1),
     st.sampled_from(sorted(SOLES)),

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import Percept, PerceptOptions, PlantarError, Reading, ReadingError, kernels
@@ -21,6 +21,7 @@ from plantar.sensing.proximity import preemptive_polygon
 from plantar.sensing.temperature import temperature_footprint, temperature_wrench
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 
+from ...examples import examples
 from ..fuzz.soles import numbers
 
 MEMBERS = Percept.members()
@@ -166,7 +167,7 @@ WILD = [np.nan, np.inf, -np.inf, 0.0, -0.0, -1.0, 1e-12, 0.02, 5.0, 40.0, 785.0,
 
 
 @given(seeds, st.booleans())
-@settings(max_examples=100 if kernels.compiled else 4)  # a search over angles takes seconds where it is interpreted
+@examples(100 if kernels.compiled else 4)  # a search over angles takes seconds where it is interpreted
 def test_no_reading_makes_a_member_raise_or_give_nan(sole, seed, fill):
     rng = np.random.default_rng(seed)
     wild = WILD if rng.random() < 0.5 else WILD[:4] + [30.0] * 4

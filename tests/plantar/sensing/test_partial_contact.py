@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout
@@ -11,6 +11,8 @@ from plantar.kernels import python_form
 from plantar.kernels.geometry.cut_cells import cut_cells
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.proximity import cells_polygon
+
+from ...examples import examples
 
 SOLE = hex_layout([[-0.125, -0.075], [0.125, -0.075], [0.125, 0.075], [-0.125, 0.075]], clip=False)
 CELLS = [shapely.Polygon(SOLE.cell_polygon(i)) for i in range(len(SOLE))]
@@ -27,7 +29,7 @@ def half_plane(line: np.ndarray) -> shapely.Polygon:
     return shapely.Polygon([foot + along, foot - along, foot - along - normal, foot + along - normal])
 
 
-@settings(max_examples=25, deadline=None)
+@examples(25)
 @given(st.integers(0, 10**6))
 def test_covered_cells_are_those_of_shapely(seed):
     rng = np.random.default_rng(seed)
@@ -59,7 +61,6 @@ def test_both_forms_of_the_kernel_agree_to_the_last_bit():
         assert (results[0][1] == results[1][1]).all()
 
 
-@settings(max_examples=40, deadline=None)
 @given(st.floats(0.07, 0.14), st.floats(-0.03, 0.03), st.floats(-0.08, 0.08), st.integers(0, 10**6))
 def test_edges_of_a_strip_are_found_within_millimetres(width, middle, angle, seed):
     rng = np.random.default_rng(seed)
@@ -79,7 +80,6 @@ def test_edges_of_a_strip_are_found_within_millimetres(width, middle, angle, see
     assert found.symmetric_difference(truth).area < corners.symmetric_difference(truth).area
 
 
-@settings(max_examples=40, deadline=None)
 @given(st.floats(-0.04, 0.04), st.floats(-0.03, 0.03), st.floats(1.0, 2000.0))
 def test_expected_forces_carry_the_load_where_it_acts(x, y, load):
     forces = PartialContact(SOLE).expected(load, (x, y), strip(0.15, 0.0))

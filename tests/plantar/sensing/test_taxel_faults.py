@@ -4,12 +4,14 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import InputError, ReadingError, hex_layout
 from plantar.sensing.identify_faults import identify_faults
 from plantar.sensing.taxel_faults import CREEPING, WARMING, TaxelFaults
+
+from ...examples import examples
 
 SOLE = hex_layout([[-0.1, -0.05], [0.12, -0.05], [0.12, 0.05], [-0.1, 0.05]])
 N = len(SOLE)
@@ -32,7 +34,7 @@ def test_without_faults_taxels_read_what_is_on_them():
     assert len(time) == len(read)
 
 
-@settings(max_examples=10)
+@examples(10)
 @given(st.integers(0, 2**31), st.integers(1, 4))
 def test_the_same_seed_gives_the_same_and_many_soles_keep_their_own_state(seed, batch):
     rng = np.random.default_rng(seed)

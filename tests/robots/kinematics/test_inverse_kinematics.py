@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import mujoco
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
@@ -15,6 +15,8 @@ from plantar.robots.kinematics.tasks.com_task import ComTask
 from plantar.robots.kinematics.tasks.pose_task import PoseTask
 from plantar.robots.kinematics.tasks.posture_task import PostureTask
 from plantar.robots.kinematics.tasks.task import Task
+
+from ...examples import examples
 
 Robot = tuple[mujoco.MjModel, mujoco.MjData]
 
@@ -65,7 +67,7 @@ def far_from_singular(build: Callable[..., Robot], seed: int) -> Robot:
     raise AssertionError("no such arm")
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@examples(40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(seed=st.integers(0, 10**6), floating=st.booleans(), size=st.floats(-2.0, 2.0), largest=st.floats(0.01, 0.5))
 def test_no_target_makes_a_step_too_large_or_leaves_a_limit(random_robot, seed, floating, size, largest):
     rng = np.random.default_rng(seed)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.errors import FootError
@@ -13,6 +13,8 @@ from plantar.layouts.hex_lattice import HexLattice
 from plantar.shoes.fit.cell_pattern import hex_pattern
 from plantar.shoes.fit.lattice_fit import fit_lattice, whole_cell_region
 from plantar.shoes.geometry.outline import rounded_rectangle
+
+from ...examples import examples
 
 WIDTH = math.sqrt(2 / math.sqrt(3))  # flat to flat of a hexagon of area 1
 
@@ -55,7 +57,7 @@ def test_rows_along_y_are_found():
     assert math.degrees(fit.lattice.angle) == pytest.approx(30)
 
 
-@settings(max_examples=10)
+@examples(10)
 @given(st.lists(st.tuples(st.floats(-120, 120), st.floats(-60, 60)), min_size=6, max_size=14), st.floats(400, 900))
 def test_cells_are_whole_inside_and_apart(points, area):
     sole = shapely.MultiPoint(points).convex_hull.buffer(15)

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import SceneError, hex_layout
@@ -16,6 +16,8 @@ from plantar.sim.sensing.sensors import SensorSuite
 from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.sole_pressure import SolePressure
 
+from ...examples import examples
+
 HALF = np.array([0.125, 0.0775])
 OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]
 LAYOUT = hex_layout(OUTLINE)
@@ -25,7 +27,7 @@ LAYER = ElasticPressure(LAYOUT, thickness=0.012)
 HALF_SPACE = ElasticPressure(LAYOUT, thickness=math.inf)
 
 
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(x=st.floats(-0.018, 0.038), y=st.floats(-0.07, 0.07), force=st.floats(1.0, 2000.0))
 def test_force_and_centre_of_pressure_are_the_true_ones(x, y, force):
     for pressure in (LAYER, HALF_SPACE):
@@ -39,7 +41,7 @@ def test_force_and_centre_of_pressure_are_the_true_ones(x, y, force):
         assert pressure.spread(BEAM, force, (x, y)).sum() == pytest.approx(force)
 
 
-@settings(max_examples=5, deadline=None)
+@examples(5)
 @given(st.lists(st.tuples(st.floats(-0.1, 0.1), st.floats(-0.06, 0.06)), min_size=2, max_size=3))
 def test_readings_do_not_depend_on_those_before(loads):
     used = ElasticPressure(LAYOUT, thickness=0.012)

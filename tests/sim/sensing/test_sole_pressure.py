@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import LayoutError, SoleLayout, hex_layout, layout_of_cells
@@ -13,6 +13,8 @@ from plantar.sensing.cell_patch import _pseudo_inverse as pseudo_inverse
 from plantar.sensing.force import center_of_pressure
 from plantar.sim.sensing.contact_patch import patch_polygon
 from plantar.sim.sensing.sole_pressure import SolePressure
+
+from ...examples import examples
 
 HALF = np.array([0.125, 0.0775])
 OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]
@@ -78,7 +80,6 @@ def test_no_push_no_taxel_force(force):
 coordinate = st.tuples(st.floats(-0.14, 0.14), st.floats(-0.09, 0.09))
 
 
-@settings(max_examples=40, deadline=None)
 @given(st.lists(coordinate, min_size=1, max_size=9), coordinate, st.floats(1e-3, 5e3))
 def test_any_patch_and_load_gives_finite_forces_that_add_up(patch, load, force):
     taxels = SHARED_PRESSURE.spread(patch, force, load)
@@ -103,7 +104,7 @@ def test_result_does_not_depend_on_the_loads_before():
             assert (used.spread(patch, 300.0, (x, y)) == fresh).all()
 
 
-@settings(max_examples=30, deadline=None)
+@examples(30)
 @given(st.floats(-0.7, 0.7), st.floats(-0.7, 0.7), st.floats(10.0, 2e3))
 def test_full_sole_has_the_exact_centre_of_pressure(fx, fy, force):
     cop = HALF * [fx, fy]
@@ -111,7 +112,7 @@ def test_full_sole_has_the_exact_centre_of_pressure(fx, fy, force):
     assert center_of_pressure(LAYOUT, taxels, 0.0) == pytest.approx(cop, abs=1e-7)
 
 
-@settings(max_examples=30, deadline=None)
+@examples(30)
 @given(st.lists(coordinate, min_size=3, max_size=8), st.lists(st.floats(0.05, 1.0), min_size=8, max_size=8))
 def test_loaded_cells_touch_the_patch(patch, weights):
     """No taxel away from the patch is loaded, and what is inside by a cell keeps its moment to a cell's size."""
