@@ -58,7 +58,7 @@ def test_every_file_that_it_names_is_there():
 def test_every_stop_on_the_three_ways_is_there():
     assert len(way(TEXT)) > 36
     assert lost(TEXT) == []
-    assert way(TEXT)[0].startswith("plantar/mujoco/")
+    assert way(TEXT)[0].startswith("sim/run/")
     assert any(stop.startswith("plantar/robots/kinematics/inverse_kinematics") for stop in way(TEXT))
     assert way(TEXT)[-1].startswith("shoes/checks")
 
