@@ -34,8 +34,9 @@ setup: $(BUILT)
 demo: $(BUILT)
 	$(PLANTAR) demo -o $(OUT)
 
+# Tests start some hundreds of processes, each of which would compile all modules where Python keeps none.
 test: $(BUILT)
-	$(PYTHON_IN_VENV) -m pytest -m "not long" $(PYTEST_OPTIONS)
+	env -u PYTHONDONTWRITEBYTECODE $(PYTHON_IN_VENV) -m pytest -m "not long" $(PYTEST_OPTIONS)
 
 test-all: $(BUILT)
 	$(PYTHON_IN_VENV) -m pytest $(PYTEST_OPTIONS)
