@@ -123,6 +123,7 @@ def test_demo_makes_all_three_and_names_them(tmp_path):
     assert set(shown) <= set(made["files"])  # what the help of analyze takes is what a demo leaves
 
 
+@pytest.mark.long
 def test_small_demo_needs_neither_simulator_nor_cad(tmp_path):
     absent = "import sys; sys.modules |= dict.fromkeys(['mujoco', 'cadquery', 'cv2'])"
     command = "sys.argv = ['plantar', 'demo', '--small', '-o', 'out', '--json']"

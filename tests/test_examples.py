@@ -159,7 +159,7 @@ def numbers_in(pattern: str, text: str) -> list[float]:
     return [float(number.rstrip(".,")) for number in found.groups()]
 
 
-@pytest.mark.sample(12)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("name", QUICK)
 def test_an_example_finds_what_it_says(name, monkeypatch, capsys):
     example = QUICK[name]
@@ -234,6 +234,7 @@ def test_the_page_that_compares_counts_them():
     assert f" {len(EXAMPLES)}, one idea each, and four notebooks" in page
 
 
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("name", ["insole_walk", "introduce_robot", "record_to_tables", "gallery"])
 def test_an_example_without_the_file_that_it_needs_says_what_to_give(name, tmp_path):
     command = [sys.executable, str(ROOT / "examples" / f"{name}.py")]

@@ -9,7 +9,7 @@ from plantar.layouts.contact_levels import FALSE_CONTACTS, contact_levels
 
 
 @pytest.mark.sample(3)
-@pytest.mark.parametrize("cells", [1, 4, 8, 42, 51, 300])
+@pytest.mark.parametrize("cells", [1, 4, 8, 42, 51, pytest.param(300, marks=pytest.mark.long)])
 @pytest.mark.parametrize("clipped", [False, True])
 def test_noise_alone_is_a_contact_in_fewer_samples_than_stated(cells, clipped):
     """Clipped at zero or not, as sensors deliver it; each level alone is good for about half of the share."""
