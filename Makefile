@@ -39,7 +39,7 @@ test: $(BUILT)
 	env -u PYTHONDONTWRITEBYTECODE $(PYTHON_IN_VENV) -m pytest -m "not long" $(PYTEST_OPTIONS)
 
 test-all: $(BUILT)
-	$(PYTHON_IN_VENV) -m pytest $(PYTEST_OPTIONS)
+	env -u PYTHONDONTWRITEBYTECODE $(PYTHON_IN_VENV) -m pytest $(PYTEST_OPTIONS)
 
 bench: $(BUILT)
 	$(PLANTAR) bench all $(BENCH_OPTIONS) -o $(OUT)/bench

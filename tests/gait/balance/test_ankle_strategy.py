@@ -79,7 +79,6 @@ def test_the_double_support_vrp_is_that_of_the_paper():
 
 
 @given(rate, st.floats(0.01, 100.0), st.floats(1e-4, 1.0))
-@settings(max_examples=40)
 def test_the_pull_of_a_vrp_is_its_integral(omega, time, part):
     left = part * time
     wd = 0.5 * math.pi / time
@@ -118,7 +117,6 @@ def test_without_double_support_the_weight_goes_over_at_once():
 
 
 @given(place, place, place, push, rate, duration, st.floats(0.05, 0.95))
-@settings(max_examples=40)
 def test_derivatives_are_those_of_finite_differences(dcm, target, end, offset, omega, time, part):
     h = np.array([1e-4, 0.0])
     single = single_support_vrp(dcm, target, time, offset, omega)

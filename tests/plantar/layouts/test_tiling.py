@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import InputError, LayoutError, grid_layout, hex_layout
@@ -185,7 +185,6 @@ grids = st.fixed_dictionaries(
 
 
 @given(outlines, grids)
-@settings(max_examples=40)
 def test_a_grid_holds_the_cells_that_a_walk_over_all_its_squares_finds(outline, grid):
     dx, dy = grid["pitch"]
     area = dx * dy

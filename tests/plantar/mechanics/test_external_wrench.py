@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.common.gravity import GRAVITY
@@ -31,7 +31,6 @@ numbers = st.floats(-1.0, 1.0)
 
 
 @given(numbers, numbers, numbers, numbers, numbers)
-@settings(max_examples=40)
 def test_it_is_the_moment_balance_about_the_zmp(fx, fy, above, aside, out):
     com, zmp = np.array([0.3, -0.1, HEIGHT]), np.array([0.25, 0.02, 0.0])
     force, point = 1e4 * np.array([fx, fy]), com + np.array([out, aside, above])
