@@ -100,6 +100,7 @@ class InverseKinematics:
             self._newton,
             _moving(model, self._configuration, self._velocity),
         )
+        self._levels: dict[tuple[int, ...], list[NDArray[np.int_]]] = {}
         self.plain = 0
         self.careful = 0
         self._placed = False
@@ -205,10 +206,13 @@ class InverseKinematics:
         return step
 
     def _rows_by_level(self) -> list[NDArray[np.int_]]:
-        levels: dict[int, list[slice]] = {}
-        for task, rows in zip(self.tasks, self._rows, strict=True):
-            levels.setdefault(task.level, []).append(rows)
-        return [np.r_[tuple(levels[level])] for level in sorted(levels)]
+        key = tuple(task.level for task in self.tasks)
+        if key not in self._levels:
+            levels: dict[int, list[slice]] = {}
+            for task, rows in zip(self.tasks, self._rows, strict=True):
+                levels.setdefault(task.level, []).append(rows)
+            self._levels[key] = [np.r_[tuple(levels[level])] for level in sorted(levels)]
+        return self._levels[key]
 
 
 def _moving(model: mujoco.MjModel, configuration: NDArray[np.float64], velocity: NDArray[np.float64]) -> Configuration:

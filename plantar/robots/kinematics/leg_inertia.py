@@ -1,5 +1,7 @@
 """How much a robot's legs turn and move its CoM as it moves over its feet."""
 
+from typing import cast
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,13 @@ def leg_inertia(robot: Robot, legs: LegModel, com_height: float) -> LegInertia:
     `com_height`: above the soles in m.
     """
     joints = np.array([*robot.posture["left"], *robot.posture["right"]])
+    key = ("inertia", robot.torso_body, com_height, joints.tobytes())
+    if key not in legs.known:
+        legs.known[key] = _found(robot, legs, com_height, joints)
+    return cast(LegInertia, legs.known[key])
+
+
+def _found(robot: Robot, legs: LegModel, com_height: float, joints: NDArray[np.float64]) -> LegInertia:
     stands = legs.posture(joints)
     legs.set_configuration(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), joints)
     model = legs.model

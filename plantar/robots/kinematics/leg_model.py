@@ -1,6 +1,7 @@
 """A robot's legs: forward and inverse kinematics, and torques."""
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -31,7 +32,8 @@ class LegModel:
     vectors; `torso`: body that is kept upright; `unit`: length in m that counts as 1 rad out of reach
     (`InverseKinematics`). Attributes `joints`: joint angles (k,) in rad of the last `follow`, overwritten by the next;
     `torques`: joint torques (k,) in N m of the last `carry` and `add_motion`, likewise; `rows`: places (6 + k,) of the
-    base's and the joints' velocities among the model's.
+    base's and the joints' velocities among the model's; `known`: what callers found for these legs, by what it depends
+    on, until other joints are moved.
     """
 
     def __init__(
@@ -70,6 +72,7 @@ class LegModel:
         )
         self._yielding: Collection[Side] = ()
         self._reference = PostureTask(model, self._data, ids)
+        self.known: dict[tuple[Hashable, ...], Any] = {}
         self.joints = np.zeros(len(ids))
         self.torques = np.zeros(len(ids))
         self._angle_entries = JointEntries(self._data.qpos, self._qpos.astype(np.intp), self.joints)
@@ -152,6 +155,13 @@ class LegModel:
         self._data.qpos[self._others] = joints
         self.inverse.move()
         self._probe.qpos[self._others] = joints
+        self.known.clear()
+
+    def restore(self, configuration: NDArray[np.float64]) -> None:
+        """Take the configuration (nq,) of an earlier solution, as `follow` left it."""
+        self._data.qpos[:] = configuration
+        self.inverse.move()
+        self._angle_entries.take()
 
     @property
     def live_configuration(self) -> NDArray[np.float64]:

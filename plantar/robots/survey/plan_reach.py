@@ -98,15 +98,19 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
     """Stand the `legs` of a `robot` on `feet`, CoM at `com_height` in m; returns the error in m or rad."""
     middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
-    legs.set_configuration(com, np.array([1.0, 0.0, 0.0, 0.0]), posture_of(robot, legs))
-    return legs.follow(
-        com,
-        np.eye(3),
-        {s: feet[s].position for s in SIDES},
-        {s: feet[s].rotation_sole_to_world for s in SIDES},
-        iterations=_FIRST,
-        largest_step=_STEP,
-    )
+    posture = posture_of(robot, legs)
+    positions = {s: feet[s].position for s in SIDES}
+    rotations = {s: feet[s].rotation_sole_to_world for s in SIDES}
+    legs.set_configuration(com, np.array([1.0, 0.0, 0.0, 0.0]), posture)
+    given = (com, posture, *positions.values(), *rotations.values())
+    key = ("settled", *(np.asarray(values, dtype=float).tobytes() for values in given))
+    if key in legs.known:
+        error, configuration = legs.known[key]
+        legs.restore(configuration)
+        return float(error)
+    error = legs.follow(com, np.eye(3), positions, rotations, iterations=_FIRST, largest_step=_STEP)
+    legs.known[key] = (error, legs.configuration)
+    return error
 
 
 def missed_aside(robot: Robot, legs: LegModel, aside: float) -> float:
@@ -136,6 +140,9 @@ def plan_reach(
     legs; infinite torques if ended early.
     """
     found = _Pass(robot, legs, walked)
+    if not bears(found.missed, found.knee, found.spare):
+        return found.broken_off()
+    found.set_out(robot)
     for time in np.arange(_BEGIN, found.plan.schedule.walking_end + found.every, found.every).tolist():
         found.look(time)
         if not (found.missed < _HOPELESS and bears(found.missed, found.knee, found.spare)):
@@ -148,10 +155,6 @@ class _Pass:
         self.legs = legs
         self.walked = walked
         self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
-        self.inertia = leg_inertia(robot, legs, walked.com_height).turning
-        frequency = pendulum_frequency(walked.com_height, 2.0 * self.inertia)
-        self.plan = WalkPlan(walked.feet, walked.steps, walked.timing, self.middles, frequency, begin=_BEGIN)
-        self.momentum = LegMomentum(self.plan, frequency, self.inertia, _ARRIVES)
         self.outline = robot.layouts["left"].outline
         self.every = walked.timing.single_support / _INSTANTS
         self.missed = settled(robot, legs, walked.feet, walked.com_height)
@@ -163,6 +166,15 @@ class _Pass:
         self.seen: list[tuple[Array, ...]] = []
         self.feet = dict(walked.feet)
         self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
+
+    def set_out(self, robot: Robot) -> None:
+        """Plan the walk from the standing posture."""
+        walked = self.walked
+        self.inertia = leg_inertia(robot, self.legs, walked.com_height).turning
+        frequency = pendulum_frequency(walked.com_height, 2.0 * self.inertia)
+        self.plan = WalkPlan(walked.feet, walked.steps, walked.timing, self.middles, frequency, begin=_BEGIN)
+        self.momentum = LegMomentum(self.plan, frequency, self.inertia, _ARRIVES)
+        settled(robot, self.legs, walked.feet, walked.com_height)  # the legs moved to find their inertia
 
     def look(self, time: float) -> None:
         walked = self.walked
