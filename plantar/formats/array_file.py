@@ -31,7 +31,7 @@ from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
 from plantar.formats.table_text import time_unit
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
-from plantar.recordings.frame_table import LARGE, MOST_VALUES, let_go, room
+from plantar.recordings.frame_table import LARGE, MOST_VALUES, let_go, put_rows, room
 from plantar.recordings.pressure_recording import Kind, PressureRecording, sampling
 
 _SLOWEST = 0.05  # s of a frame of times that are taken to be in ms, us or ns
@@ -211,7 +211,7 @@ def _large_frames(array: _Array, opened: Callable[[], IO[bytes]]) -> NDArray[np.
         for block in opened_array(stream).blocks(_PIECE):
             part = block.reshape(len(block), -1).astype(float)
             part[np.isinf(part)] = np.nan
-            out[filled : filled + len(part)] = part
+            put_rows(out, filled, part)
             filled += len(part)
             let_go(out)
     return out

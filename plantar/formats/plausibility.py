@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.recordings.frame_table import blocks_of_frames, column_maxima, let_go, room
+from plantar.recordings.frame_table import blocks_of_frames, column_maxima, let_go, put_rows, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
 _FORCE = (15.0, 6000.0)
@@ -76,9 +76,19 @@ def _without_impossible(recording: PressureRecording) -> PressureRecording:
 
 def possible(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Returns values (n, ...) with NaN for infinite ones and those above `MOST`; the same array without any."""
-    high = any((np.abs(values[rows]) > MOST).any() for rows in blocks_of_frames(values))
+    high = any(_beyond(values[rows]) for rows in blocks_of_frames(values))
     let_go(values)
     return np.where(np.abs(values) <= MOST, values, np.nan) if high else values
+
+
+def _beyond(values: NDArray[np.float64]) -> bool:
+    if not values.size:
+        return False
+    low = values.min()
+    high = values.max()
+    if low >= -MOST and high <= MOST:  # not so with a NaN
+        return False
+    return bool((np.abs(values) > MOST).any())
 
 
 def refuse_small(recording: PressureRecording) -> None:
@@ -325,7 +335,7 @@ def _left_out(force: NDArray[np.float64], per: NDArray[np.float64], mark: float)
     count = 0
     for rows in blocks_of_frames(force):
         marked = _is(force[rows] / per, mark)
-        out[rows] = np.where(marked, np.nan, force[rows])
+        put_rows(out, rows.start, np.where(marked, np.nan, force[rows]))
         count += int(marked.sum())
         let_go(out)
     return out, count

@@ -233,9 +233,10 @@ def uneven_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -
             f"the {weak} foot carries no more than {100.0 * share:.0f} % of what the {other_side(weak)} one does, and "
             "in single support each carries the body: a sensor's gain or unit? Its forces may be too small by that"
         )
-    left, right = (np.nansum(recording.feet[side].force, axis=0) for side in SIDES)
-    if recording.kind == "plate" or len(left) != len(right) or not 1 < len(left) < _MOSAIC:
+    cells = {recording.feet[side].force.shape[1] for side in SIDES}
+    if recording.kind == "plate" or len(cells) > 1 or not 1 < min(cells) < _MOSAIC:
         return out
+    left, right = (np.nansum(recording.feet[side].force, axis=0) for side in SIDES)
     if not (left.sum() > 0.0 and right.sum() > 0.0):
         return out
     ratio = (left / left.sum() + 1e-9) / (right / right.sum() + 1e-9)

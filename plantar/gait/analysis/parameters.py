@@ -243,8 +243,9 @@ def analyse_foot(
     loads = StepLoads(recording, gait.foot, gait.cell_threshold)
     gait = with_picture(recording, gait, loads)
     others = _other_foot(recording, side, events)
-    strides = iter(stride_times(gait.contacts))
-    longest = iter(longest_strides(gait.contacts))
+    most = longest_strides(gait.contacts)
+    longest = iter(most)
+    strides = iter(stride_times(gait.contacts, most))
     complete = [c for c in gait.contacts if c.complete]
     before = dict(zip(map(id, gait.contacts), [None, *gait.contacts], strict=False))
     steps: list[Step] = []

@@ -128,8 +128,9 @@ def _foot(
 ) -> FootGait:
     places = {s: [m.place for m in each if m.place is not None] for s, each in present.items()}
     lengths = step_geometry(places)[side] if len(places[side]) == len(own) else [{} for _ in own]
-    strides = iter(stride_times(contacts))
-    longest = iter(longest_strides(contacts))
+    most = longest_strides(contacts)
+    longest = iter(most)
+    strides = iter(stride_times(contacts, most))
     before: Contact | None = None
     steps: list[Step] = []
     left_out: dict[int, str] = {}
