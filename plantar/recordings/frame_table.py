@@ -57,7 +57,7 @@ def put_rows(values: NDArray[np.float64], first: int, block: NDArray[np.float64]
         values[first : first + len(block)] = block
         return
     at = values.ctypes.data - pages.address + first * values.shape[1] * 8
-    left = memoryview(np.ascontiguousarray(block, dtype=float).reshape(-1).view(np.uint8))
+    left = memoryview(np.ascontiguousarray(block, dtype=float).tobytes())
     while len(left):
         written = os.pwrite(pages.file, left, at)
         at += written

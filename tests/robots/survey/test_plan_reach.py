@@ -37,6 +37,7 @@ def test_the_moment_about_the_com_is_that_of_inverse_dynamics():
     robot = load_robot("h1")
     legs = build_leg_model(robot)
     found = _Pass(robot, legs, straight_walk(robot, body_of(robot, legs.model), robot.com_height, steps=2))
+    found.set_out(robot)
     every = found.every
     for time in np.arange(1.6, 2.9, every).tolist():
         found.look(time)
