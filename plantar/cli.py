@@ -2,6 +2,7 @@
 
 import sys
 from importlib import import_module
+from itertools import pairwise
 from pkgutil import iter_modules
 from typing import Annotated, Any
 
@@ -30,7 +31,14 @@ class _Groups(TyperGroup):
 
 
 class _Titled(TyperCommand):
-    """Help whose options come in groups, those that many commands have last."""
+    """Help whose options come in groups, those that many commands have last; no file has an empty name."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        for before, word in pairwise(("", *args)):
+            if not word and (not before.startswith("-") or before in ("-o", "--output")):
+                # As a path, an empty word would be the folder that one is in.
+                raise InputError(f"a word of plantar {ctx.info_name} is empty; allowed: a file's or folder's name")
+        return super().parse_args(ctx, args)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         sections: dict[str, list[tuple[str, str]]] = {"Arguments": []}

@@ -4,6 +4,8 @@ import base64
 import html
 import io
 import os
+import re
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -60,6 +62,17 @@ def new_figure(
     return figure, axes
 
 
+def drawn_name(text: str) -> str:
+    r"""Text of a file or a user as a figure shows it: in one line, no formula, and no bytes that are no text.
+
+    Example:
+        >>> drawn_name("a$x$\n.csv")
+        'a\\$x\\$ .csv'
+    """
+    readable = text.encode("utf-8", errors="replace").decode("utf-8")
+    return re.sub(r"[\x00-\x1f\x7f]", " ", readable).replace("$", r"\$")
+
+
 def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
     """Save a figure whole or not at all, reproducibly, in the format of the path's suffix; returns the path.
 
@@ -74,7 +87,8 @@ def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
         raise InputError(f"cannot write {final}: unknown figure format {suffix!r}; allowed: {', '.join(FORMATS)}")
     # No date, and ids that do not depend on the process.
     metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(suffix)
-    with replacing(final) as temporary, rc_context({"svg.hashsalt": "plantar"}):
+    with replacing(final) as temporary, rc_context({"svg.hashsalt": "plantar"}), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")  # a box is drawn instead
         figure.savefig(temporary, metadata=metadata)
     return final
 

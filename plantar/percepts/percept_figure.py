@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.plotting import COLOURS, draw_cells, html_of, new_figure, ticks_in_mm
+from plantar.plotting import COLOURS, draw_cells, drawn_name, html_of, new_figure, ticks_in_mm
 
 _FULL = 10.0  # thresholds, the least end of the colours: the noise of a foot in the air does not look like a load
 _CONTOURS = ("#ffffff", "#ffd166", "#f4a259", "#e4572e", "#d81b60")
@@ -70,7 +70,7 @@ def percept_figure(percept: Any, title: str = "") -> Any:
     _draw_contact(figure, panels[0, 0], percept)
     if near:
         _draw_proximity(figure, panels[0, 1], percept)
-    figure.suptitle(title or f"{percept.layout.name}, {percept.reading.time:.3f} s")
+    figure.suptitle(title or f"{drawn_name(percept.layout.name)}, {percept.reading.time:.3f} s")
     return figure
 
 

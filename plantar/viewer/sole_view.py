@@ -18,7 +18,7 @@ from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_figure import percept_dict, percept_figure, percept_text
-from plantar.plotting import html_of, save_figure
+from plantar.plotting import drawn_name, html_of, save_figure
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.recordings.recording import Recording, read_mcap
 from plantar.sensing.reading import Reading
@@ -70,7 +70,7 @@ class SoleView:
 
     def figure(self) -> Any:
         """Matplotlib figure: forces and shapes of the contact, and beside them what is near where that is recorded."""
-        return percept_figure(self.percept, f"{self.source}, {self.side} sole at {self.time:.3f} s")
+        return percept_figure(self.percept, f"{drawn_name(self.source)}, {self.side} sole at {self.time:.3f} s")
 
     def save(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write `sole_<side>.png` and `sole_<side>.json` into a folder; returns their paths."""

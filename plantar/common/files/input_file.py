@@ -78,6 +78,26 @@ def open_input(path: Name, error: type[PlantarError], most: float | None = None,
     return stream
 
 
+def is_text(name: str) -> bool:
+    """Whether a name holds no bytes that are no UTF-8."""
+    return name == name.encode(errors="replace").decode()
+
+
+def name_in_text(path: Name, error: type[PlantarError], where: str | None = None) -> str:
+    """Returns the name of a file for a library that takes no bytes; raises `error` for bytes that are no text.
+
+    Example:
+        >>> name_in_text("a b.c3d", PlantarError)
+        'a b.c3d'
+    """
+    name = os.fspath(path)
+    text = name if isinstance(name, str) else os.fsdecode(name)
+    if not is_text(text):
+        where = f"{path}:" if where is None else where
+        raise error(f"{where} cannot be opened by a library that takes names in UTF-8 alone; allowed: another name")
+    return text
+
+
 def read_input(path: Name, error: type[PlantarError], most: float, where: str | None = None) -> bytes:
     """Returns all bytes of a regular file; path, error, most and where as of `check_input`.
 

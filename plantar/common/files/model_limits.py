@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
+from plantar.common.files.input_file import is_text, name_in_text
 from plantar.errors import PlantarError
 
 MOST_PARTS = 2000
@@ -95,14 +96,16 @@ def quiet_mujoco() -> Any:
 def spec_of_file(path: str | os.PathLike[str]) -> Any:
     """MuJoCo's editable model of an MJCF or URDF file.
 
-    MuJoCo reads MJCF only under the name .xml; under another one, such as .mjcf, its text is read in its folder.
+    MuJoCo reads MJCF only under the name .xml; under another one, such as .mjcf, or one with a backslash, which it
+    takes for the end of a folder, its text is read in its folder. PlantarError for a name that is not UTF-8.
     """
     kind = quiet_mujoco().MjSpec
     file = Path(path)
-    if file.suffix.lower() in (".xml", ".urdf"):
+    name_in_text(file, PlantarError, "its name")
+    if file.suffix.lower() in (".xml", ".urdf") and "\\" not in file.name:
         return kind.from_file(str(file))
     others = [p for pattern in ("*.xml", "*.mjcf") for p in file.parent.glob(pattern) if p.is_file() and p != file]
-    beside = {p.name: p.read_bytes() for p in others}  # what it may include
+    beside = {p.name: p.read_bytes() for p in others if is_text(p.name)}  # what it may include
     spec = kind.from_string(file.read_text(encoding="utf-8"), include=beside)
     spec.modelfiledir = str(file.parent)
     return spec

@@ -73,7 +73,10 @@ def _sections(files: Sequence[str]) -> Iterable[Section]:
         own = [name for name in left if endings is None or name.endswith(endings)]
         left = [name for name in left if name not in own]
         if own:
-            rows = (row(f'<a href="{quote(name)}">{html.escape(name)}</a>', [_about(name, files)]) for name in own)
+            rows = (
+                row(f'<a href="{quote(os.fsencode(name))}">{html.escape(name)}</a>', [_about(name, files)])
+                for name in own
+            )
             yield Section(key, title, table(title, "", ("file", "what it is"), rows, ("what it is",)))
 
 
@@ -88,5 +91,5 @@ def _about(name: str, files: Sequence[str]) -> str:
     text = "places and shapes of the taxels" if layout else _ABOUT.get(path.name, _ENDINGS.get(path.suffix, ""))
     vector = f"{name[:-4]}.svg"
     if path.suffix == ".png" and vector in files:
-        return f'{text}, also as <a href="{quote(vector)}">SVG</a>'
+        return f'{text}, also as <a href="{quote(os.fsencode(vector))}">SVG</a>'
     return text

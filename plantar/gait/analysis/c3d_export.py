@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.files.input_file import name_in_text
 from plantar.common.sides import Side
+from plantar.errors import FormatError, InputError
 from plantar.formats.units import LENGTHS, plain
 from plantar.recordings.pressure_recording import PressureRecording
 
@@ -34,7 +36,7 @@ def write_onto_c3d(
     """
     import ezc3d
 
-    file = ezc3d.c3d(str(recording.path))
+    file = ezc3d.c3d(name_in_text(recording.path, FormatError))
     axes = list(recording.metadata["axes"])
     points = np.array(file["data"]["points"])
     analogs = np.array(file["data"]["analogs"])
@@ -51,7 +53,7 @@ def write_onto_c3d(
         if not _is_stated(recording, side, what, time)
     ]
     _add_events(file, new)
-    file.write(str(path))
+    file.write(name_in_text(path, InputError, "the C3D file to write"))
 
 
 def _in_file(values: NDArray[np.float64], axes: list[int]) -> NDArray[np.float64]:

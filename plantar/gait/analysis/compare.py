@@ -84,7 +84,7 @@ def _write_comparison(
     if figures:
         drawn = write_figures(_figures(analyses, pairs, difference), folder)
         page = comparison_page(metrics, drawn, names, ("a/report.html", "b/report.html"))
-        (folder / "report.html").write_text(page, encoding="utf-8")
+        (folder / "report.html").write_text(page, encoding="utf-8", errors="replace")
     return metrics
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.atomic import keep_inputs, parent_folder, replacing, write_text
+from plantar.common.files.input_file import name_in_text
 from plantar.common.optional_library import optional_library
 from plantar.common.sides import Side
 from plantar.common.table_writer import write_csv_rows
@@ -286,7 +287,7 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
         file.add_parameter("EVENT", "CONTEXTS", [side.capitalize() for side, _, _ in events])
         file.add_parameter("EVENT", "LABELS", [names[what] for _, what, _ in events])
         file.add_parameter("EVENT", "TIMES", np.vstack([times // 60.0, times % 60.0]))
-    file.write(str(path))
+    file.write(name_in_text(path, InputError, "the C3D file to write"))
 
 
 EXPORTS: Mapping[str, Callable[[Analysis, Path], None]] = {

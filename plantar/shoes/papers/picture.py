@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.plotting import COLOURS, new_figure, png_of, save_figure
+from plantar.plotting import COLOURS, drawn_name, new_figure, png_of, save_figure
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.outline import ring
 
@@ -166,7 +166,7 @@ def draw_picture(surface: Array, pad: Array | None, title: str, path: str | os.P
         ax.imshow(_halved(view), interpolation="nearest")
         ax.set_title(text, fontsize=9, loc="left")
         ax.set_axis_off()
-    figure.suptitle(title, fontsize=11)
+    figure.suptitle(drawn_name(title), fontsize=11)
     return save_figure(figure, path)
 
 
@@ -201,7 +201,11 @@ def draw_preview(foot: Foot, path: str | os.PathLike[str]) -> Path:
     top.set_ylim(low_y - 0.5 * reach, high_y + 1.4 * reach)
     side.set_xlabel("x in mm")
     top.legend(fontsize=7, loc="upper left", frameon=False)
-    figure.suptitle(f"{foot.name}, left foot as it was read\n" + "; ".join(foot.notes), fontsize=7, wrap=True)
+    figure.suptitle(
+        f"{drawn_name(foot.name)}, left foot as it was read\n" + "; ".join(map(drawn_name, foot.notes)),
+        fontsize=7,
+        wrap=True,
+    )
     return save_figure(figure, path)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from plantar.plotting import COLOURS, new_figure
+from plantar.plotting import COLOURS, drawn_name, new_figure
 from plantar.shoes.build import Shoe
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
@@ -64,7 +64,7 @@ def _plan(axes: Any, shoe: Shoe, p: ShoeParameters, wiring: Wiring, board: FlexB
     axes.set_aspect("equal")
     axes.invert_yaxis()  # seen from the ground, toes to the right, the left side is below
     axes.set_xlabel("mm, toes to the right; seen from the ground")
-    axes.set_title(f"{shoe.layout.name}, {shoe.side}: {title}", fontsize=9, loc="left")
+    axes.set_title(f"{drawn_name(shoe.layout.name)}, {shoe.side}: {title}", fontsize=9, loc="left")
 
 
 def _span(letter: str, wiring: Wiring) -> str:

@@ -13,7 +13,7 @@ from plantar.gait.analysis.measures import full_title, unit_of
 from plantar.gait.analysis.pages.force_figures import STANCE
 from plantar.gait.analysis.study.one_against_group import ENOUGH_IN_GROUP, OneAgainstGroup, Standing
 from plantar.gait.analysis.study.statistics import student_quantile
-from plantar.plotting import COLOURS, new_figure
+from plantar.plotting import COLOURS, drawn_name, new_figure
 
 _NAMED = 8  # Measures that the words name; the tables have all
 _FOUND = "#f2c14e"
@@ -165,7 +165,7 @@ def _draw_curves(one: OneAgainstGroup) -> Any | None:
         grey = COLOURS["reference"]
         panel.fill_between(STANCE, curve.mean - reach, curve.mean + reach, color=grey, alpha=0.25, linewidth=0)
         panel.plot(STANCE, curve.mean, color=grey, linewidth=1.2, label="group")
-        panel.plot(STANCE, curve.value, color=COLOURS[side], linewidth=1.8, label=one.participant)
+        panel.plot(STANCE, curve.value, color=COLOURS[side], linewidth=1.8, label=drawn_name(one.participant))
         if curve.differs.any():
             low, high = panel.get_ylim()
             panel.fill_between(STANCE, low, high, where=curve.differs, color=_FOUND, alpha=0.35, zorder=0, linewidth=0)

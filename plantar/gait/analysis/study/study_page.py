@@ -30,7 +30,7 @@ from plantar.gait.analysis.study.mixed_models import MixedEffect
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.reliability import Agreement, Reliability
 from plantar.gait.analysis.study.statistics import Effect, student_quantile
-from plantar.plotting import COLOURS, new_figure
+from plantar.plotting import COLOURS, drawn_name, new_figure
 
 _MOST = 200  # Rows of a table that the page shows; the CSV tables hold all
 
@@ -398,7 +398,9 @@ def _draw_curves(one: Comparison) -> Any | None:
         mean = curves.mean(axis=0)
         reach = student_quantile(0.975, len(curves) - 1) * curves.std(axis=0, ddof=1) / np.sqrt(len(curves))
         axes.fill_between(STANCE, mean - reach, mean + reach, color=colour, alpha=0.2, linewidth=0)
-        axes.plot(STANCE, mean, line, color=colour, linewidth=1.8, label=f"{name} ({len(curves)} participants)")
+        axes.plot(
+            STANCE, mean, line, color=colour, linewidth=1.8, label=f"{drawn_name(name)} ({len(curves)} participants)"
+        )
     for cluster, p in enumerate(one.curve_test.cluster_p, 1):
         places = np.flatnonzero(one.curve_test.clusters == cluster)
         if p <= 0.05:
@@ -421,13 +423,13 @@ def _draw_maps(one: Comparison) -> Any | None:
     highest = float(np.nanmax([np.nanmax(a), np.nanmax(b)])) or 1.0
     for panel, name, values in ((axes[0], one.a, a), (axes[1], one.b, b)):
         drawn = panel.imshow(values[:, ::-1], vmin=0.0, vmax=highest, cmap="viridis", **_FRAME)
-        panel.set_title(name)
+        panel.set_title(drawn_name(name))
     figure.colorbar(drawn, ax=list(axes[:2]), label=f"maximum pressure ({unit})", shrink=0.8)
     change = b - a
     most = float(np.nanmax(np.abs(change))) or 1.0
     drawn = axes[2].imshow(change[:, ::-1], vmin=-most, vmax=most, cmap="RdBu_r", **_FRAME)
     figure.colorbar(drawn, ax=axes[2], label=f"difference ({unit})", shrink=0.8)
-    axes[2].set_title(f"{one.b} less {one.a}")
+    axes[2].set_title(drawn_name(f"{one.b} less {one.a}"))
     differs = np.zeros(one.places.shape, dtype=bool)
     differs[one.places] = one.map_test.significant
     if differs.any():
