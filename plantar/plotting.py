@@ -6,7 +6,8 @@ import io
 import os
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -89,8 +90,22 @@ def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
     metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(suffix)
     with replacing(final) as temporary, rc_context({"svg.hashsalt": "plantar"}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")  # a box is drawn instead
-        figure.savefig(temporary, metadata=metadata)
+        with _placed(figure, suffix):
+            figure.savefig(temporary, metadata=metadata)
     return final
+
+
+@contextmanager
+def _placed(figure: Any, suffix: str) -> Iterator[None]:
+    """A figure whose axes are placed, so that saving it draws it once: matplotlib draws it twice with any engine."""
+    engine = figure.get_layout_engine()
+    if engine is None or suffix != "png":  # other formats measure texts in their own way
+        yield
+        return
+    engine.execute(figure)
+    figure.set_layout_engine(None)
+    yield
+    figure.set_layout_engine(engine)
 
 
 def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highest: float) -> Any:

@@ -124,7 +124,7 @@ class Sheet:
     def _drawn(self) -> Any:
         """The sheet as a matplotlib figure of its own size."""
         figure, axes = new_figure(_SIZE[0] / _INCH, _SIZE[1] / _INCH)
-        figure.set_layout_engine("none")
+        figure.set_layout_engine(None)
         axes.set_position([0.0, 0.0, 1.0, 1.0])
         axes.set(xlim=(0.0, _SIZE[0]), ylim=(0.0, _SIZE[1]))
         axes.set_axis_off()
