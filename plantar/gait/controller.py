@@ -103,7 +103,10 @@ class WalkingController:
         self.layouts = layouts
         self._motors = motors
         self.replans = 0
-        limits = {side: AnkleLimits(strips, s.balance.zmp_offset) for side, strips in s.ankle_limits.items()}
+        legs = s.standing_legs
+        limits = {
+            side: AnkleLimits(strips, s.balance.zmp_offset, legs.get(side)) for side, strips in s.ankle_limits.items()
+        }
         middles = {side: middle_of_sole(layouts[side], s.ankle_reach, limits.get(side)) for side in SIDES}
         self.middles = middles
         self.estimation = Estimation(s, feet, layouts, kinematics)
@@ -118,7 +121,7 @@ class WalkingController:
         self.footing = Footing(s, feet, layouts, self.plan, self.estimation, middles, limits, turns_stance=turns)
         self.body_targets = BodyTargets(s, self.footing)
         self.foot_targets = FootTargets(s, self.footing)
-        asked = proposers(s, layouts, self.plan, feet, begin, middles, self.footing.guard)
+        asked = proposers(s, layouts, self.plan, feet, begin, middles, limits, self.footing.guard)
         own = tuple(kind.begin(layouts, s.period) for kind in s.proposers)
         self._proposers = (*asked, *own, *start.commands)
         self._gaps = BodySensors(s.period, _BRIDGED * s.body.beat)

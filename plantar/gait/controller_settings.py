@@ -15,6 +15,7 @@ from plantar.gait.balance.dcm_balance import BalanceGains
 from plantar.gait.balance.law import LawGains
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.contact.stance_contact import ContactSettings
+from plantar.gait.contact.standing_leg import StandingLeg
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
 from plantar.gait.estimate.dcm_filter import DcmFilterRules
 from plantar.gait.estimate.estimator import EstimatorGains
@@ -48,7 +49,6 @@ class ControllerSettings(Settings):
 
     Attributes:
         com_height: CoM over the soles in m.
-        partial_rise: CoM rise in m over a partial foothold.
         spare_crouch: How much lower than that in m it may walk.
         mass: In kg.
         period: Control period in s.
@@ -64,6 +64,7 @@ class ControllerSettings(Settings):
         ankles: Their force-torque sensors, if any.
         ankle_limits: Strips (m, 5) of each sole where weight can act on that foot alone
             (`plantar.gait.contact.ankle_limits`); empty without limits.
+        standing_legs: How high each leg has to stand for its knee; empty without limits.
         leg_inertia: Of a leg that swings, for plan and estimate.
         footholds: How footholds are found: "off" assumes whole soles, for comparison; "force" uses forces, "skin" also
             proximity.
@@ -72,7 +73,6 @@ class ControllerSettings(Settings):
 
     com_height: float
     mass: float
-    partial_rise: float = number(0.0, "m", 0.0, 0.5)
     spare_crouch: float = number(0.0, "m", 0.0, 0.5)
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
@@ -110,6 +110,7 @@ class ControllerSettings(Settings):
     zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
     ankle_limits: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
+    standing_legs: Mapping[Side, StandingLeg] = field(default_factory=dict)
     leg_inertia: LegInertia = field(default_factory=LegInertia)
     footholds: str = choice("off", "force", "skin")
     skin: BodySkin | None = None

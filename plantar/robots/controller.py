@@ -26,7 +26,7 @@ from plantar.gait.safety.bring_up.finding import Finding
 from plantar.gait.safety.fault_log import Fault
 from plantar.robots.bring_up import bring_up_of
 from plantar.robots.controller_settings import com_height_of, controller_settings
-from plantar.robots.kinematics.ankle_limits import ankle_limits
+from plantar.robots.kinematics.ankle_limits import ankle_limits, standing_legs
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.command_joints import follow_command
@@ -41,7 +41,7 @@ from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.sole_readings import AnkleSoles, SoleSource, TorqueSoles
 from plantar.robots.start import start_of_walk, velocity_command
-from plantar.robots.walk import Control, Walk, crouches
+from plantar.robots.walk import Control, Walk, crouch_of
 
 __all__ = ["JointTargets", "MotorCommand", "RobotController", "load_controller"]
 
@@ -269,10 +269,11 @@ def load_controller(
     parts = {name: check_controller_table(name, table, f"[{name}]", SceneError) for name, table in given.items()}
     task: Any = SimpleNamespace(name="load_controller", walk=walk, control=control, controller=parts)
     task.proximity_range = own.layouts["left"].proximity_range
-    limits = ankle_limits(own, legs.model, body.weight, crouches(walk, own)[1])
+    limits = ankle_limits(own, legs.model, body.weight)
+    standing = standing_legs(own, legs.model, body.weight, crouch_of(walk, own))
     inertia = leg_inertia(own, legs, com_height_of(walk, own))
     ankles = ankle_sensors(legs.model, own)
-    settings = controller_settings(task, own, body, ankles, limits, inertia=inertia)
+    settings = controller_settings(task, own, body, ankles, limits, inertia=inertia, standing=standing)
     table = walk.velocities(seed)
     velocities = velocity_command(walk, own, settings.com_height, table)
     start = replace(start_of_walk(walk, own, settings.com_height, velocities=table), commands=(velocities,))

@@ -13,6 +13,7 @@ from plantar.common.sides import Side
 from plantar.errors import InputError, SceneError
 from plantar.gait.balance.balance_laws import balance_gains, law_of
 from plantar.gait.balance.law import LawGains
+from plantar.gait.contact.standing_leg import StandingLeg
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.controller_tables import CONTROLLER_TABLES, OPTIONAL_PARTS
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
@@ -20,7 +21,7 @@ from plantar.gait.feet.swing_kinds import swing_kinds
 from plantar.gait.propose.proposer_kind import proposer_kinds
 from plantar.mechanics.leg_inertia import LegInertia
 from plantar.robots.robot import Robot
-from plantar.robots.walk import Control, Walk, crouches, walk_timing
+from plantar.robots.walk import Control, Walk, crouch_of, walk_timing
 from plantar.sensing.link_skin import BodySkin
 
 # Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
@@ -68,11 +69,12 @@ def controller_settings(
     limits: Mapping[Side, NDArray[np.float64]] | None = None,
     skin: BodySkin | None = None,
     inertia: LegInertia = _NO_LEGS,
+    standing: Mapping[Side, StandingLeg] | None = None,
 ) -> ControllerSettings:
     """Settings of the walking controller for a scene.
 
     `ankles`: force-torque sensors, if any; `limits`: where its weight may act on one foot (`ankle_limits`); None for
-    anywhere; `skin`: skin of its upper body, base frame; None without.
+    anywhere; `skin`: skin of its upper body, base frame; None without; `standing`: how high its legs have to stand.
     """
     walk = scene.walk
     _refuse_unused(scene, robot)
@@ -109,10 +111,8 @@ def controller_settings(
         for kind in proposer_kinds()
         if runs(kind)
     )
-    whole, partial = crouches(walk, robot)
     found = ControllerSettings(
         com_height=com_height_of(walk, robot),
-        partial_rise=whole - partial,
         spare_crouch=max(0.0, robot.largest_crouch - walk.lowered),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
@@ -125,6 +125,7 @@ def controller_settings(
         zmp_source=control.zmp_source,
         ankles=ankles,
         ankle_limits=limits or {},
+        standing_legs=standing or {},
         leg_inertia=inertia if control.leg_momentum else _NO_LEGS,
         footholds=control.footholds,
         skin=skin,
@@ -139,7 +140,7 @@ def controller_settings(
 
 def com_height_of(walk: Walk, robot: Robot) -> float:
     """Returns a `robot`'s CoM height in m above carrying soles in a `walk`."""
-    return robot.com_height - crouches(walk, robot)[0]
+    return robot.com_height - crouch_of(walk, robot)
 
 
 def _period(control: Control) -> float:

@@ -83,7 +83,6 @@ class Robot:
         stance_width: Distance of sole origins with feet together in m.
         leg_length: From hip over knee to ankle in m, for shares; 0 for the model's.
         largest_crouch: How much below `com_height` it may walk in m.
-        largest_crouch_partial: The same on parts of its soles, where heel loads strain the knee.
         trunk_lean: Roll of torso over stance foot in rad per metre of lateral CoM motion.
         single_support: t_ss in s where the scene gives none; 0 for the same beats of leg for every robot.
         double_support: t_ds likewise.
@@ -122,7 +121,6 @@ class Robot:
     stance_width: float
     leg_length: float
     largest_crouch: float
-    largest_crouch_partial: float
     trunk_lean: float
     single_support: float
     double_support: float

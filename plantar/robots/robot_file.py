@@ -51,7 +51,6 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
         "stance_width",
         "leg_length",
         "largest_crouch",
-        "largest_crouch_partial",
         "trunk_lean",
         "single_support",
         "double_support",
@@ -341,13 +340,11 @@ class _RobotFile(RobotTables):
         return Arms(machine, self.text("chest", "arms"), {side: self.text(side, "arms") for side in SIDES})
 
     def _gait(self) -> dict[str, Any]:
-        crouch = self.number("largest_crouch", "gait", 0.0, 0.5, 0.0)
         return {
             "com_height": self.number("com_height", "gait", 0.05, 5.0),
             "stance_width": self.number("stance_width", "gait", 0.01, 2.0),
             "leg_length": self.number("leg_length", "gait", 0.02, 3.0) if "leg_length" in self.table("gait") else 0.0,
-            "largest_crouch": crouch,
-            "largest_crouch_partial": self.number("largest_crouch_partial", "gait", 0.0, crouch, crouch),
+            "largest_crouch": self.number("largest_crouch", "gait", 0.0, 0.5, 0.0),
             "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),
             "single_support": self._duration("single_support", 0.2),
             "double_support": self._duration("double_support", 0.02),

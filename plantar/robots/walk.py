@@ -46,7 +46,7 @@ class Walk(Settings):
         swing_height: Clearance of the swing foot; less in quick steps.
         lean: Whether the trunk leans over the stance foot, which unloads hip roll (`trunk_lean`).
         crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; at most as
-            its steps need (`lowered`), and `largest_crouch`, or `largest_crouch_partial` on parts of its soles.
+            its steps need (`lowered`), and `largest_crouch`; over a part of a sole less, as its knee needs.
         approach_height: Height above the expected ground from which a blind swing foot goes down slowly, after ground
             that was elsewhere; it then aims as far below.
         approach_speed: Its speed in m/s.
@@ -205,9 +205,9 @@ CONTROL_PERIOD = Control().period
 """Control period in s of a scene that does not state one."""
 
 
-def crouches(walk: Walk, robot: Robot) -> tuple[float, float]:
-    """Returns a `robot`'s crouch in a `walk` in m on whole soles and parts."""
-    return min(walk.lowered, robot.largest_crouch), min(walk.lowered, robot.largest_crouch_partial)
+def crouch_of(walk: Walk, robot: Robot) -> float:
+    """Returns a `robot`'s crouch in a `walk` in m."""
+    return min(walk.lowered, robot.largest_crouch)
 
 
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:

@@ -47,12 +47,16 @@ def middle_of_sole(
 
 
 def _loaded(
-    polygon: NDArray[np.float64], reach: float, limits: AnkleLimits | None, lean: NDArray[np.float64] = UPRIGHT
+    polygon: NDArray[np.float64],
+    reach: float,
+    limits: AnkleLimits | None,
+    lean: NDArray[np.float64] = UPRIGHT,
+    part: bool = False,
 ) -> NDArray[np.float64]:
-    """Best place (2,) to load a polygon (k, 2)."""
+    """Best place (2,) to load a polygon (k, 2), which may be a part of the sole."""
     center = loaded_middle(polygon, reach)
     weak = borne_part(polygon, reach) is not polygon  # such an ankle is loaded midway already
-    return center if limits is None or weak else limits.center(polygon, center, lean)
+    return center if limits is None or weak else limits.center(polygon, center, lean, part)
 
 
 def on_its_hull(layout: SoleLayout) -> SoleLayout:
@@ -73,6 +77,7 @@ class FootholdFound:
         whole: Whether the whole sole carries.
         as_planned: Whether whole, and none other was found before.
         seen: Whether seen before touchdown; what loads alone show can change.
+        rise: How much higher in m the robot stands over it.
     """
 
     step: int
@@ -84,6 +89,7 @@ class FootholdFound:
     whole: bool = False
     as_planned: bool = False
     seen: bool = True
+    rise: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -97,7 +103,7 @@ class FootholdSeen:
 
 @dataclass
 class _Foot:
-    """A foot: taxels' view, load point (2,), carrying parts (k, 2) of its foothold, step."""
+    """A foot: taxels' view, load point (2,), carrying parts (k, 2) of its foothold, step; `rise` of the CoM in m."""
 
     contact: StanceContact
     center: NDArray[np.float64]
@@ -106,10 +112,14 @@ class _Foot:
     alone: NDArray[np.float64] | None = None
     step: int | None = None
     seen_partial: bool = False
+    rise: float = 0.0
 
 
 class FootContacts:
     """Contacts of both feet.
+
+    Attributes `parts`: best place (2,) to load each foot that is known to stand on a part of its sole, sole frame, in
+    m; `rise`: how much higher in m the robot has to stand over those; `mass_ratio`: its mass over the model's.
 
     `reach`: distance in m along the sole, from its origin, at which an ankle bears the robot; `limits`: each ankle's
     torque limits, or None; `sensing_range` of proximity, in m.
@@ -134,6 +144,9 @@ class FootContacts:
             for side in SIDES
         }
         self._edges = EdgeMemory(settings.body)
+        self.parts: dict[Side, NDArray[np.float64]] = {}
+        self.rise = 0.0
+        self.mass_ratio = 1.0
         self._foreseen = -1
         self._part = -_FORGETS - 1
         self._region_of: list[object] = []
@@ -147,10 +160,6 @@ class FootContacts:
     def polygon(self, side: Side) -> NDArray[np.float64]:
         """Part (k, 2) of a foothold that its ankle bears, sole frame, in m."""
         return self._feet[side].borne
-
-    def partial(self, side: Side) -> bool:
-        """Whether a foot is known to stand partially."""
-        return not self._feet[side].contact.whole or self._feet[side].seen_partial
 
     def firm(self, step: int) -> bool:
         """Whether the last footholds before a step were found, and seen ahead, whole."""
@@ -166,6 +175,7 @@ class FootContacts:
         foot.borne = self._borne[side]
         foot.step = step
         foot.seen_partial = False
+        self._stand_on_part(side, False)
         if self._foreseen == step:  # a step that is taken once more
             self._foreseen = -1
 
@@ -174,9 +184,10 @@ class FootContacts:
         foot = self._feet[side]
         ground = foot.contact.foresee(np.zeros(2))
         if ground is not None:
-            foot.center = _loaded(ground, self._reach, self._limits.get(side))
+            foot.center = _loaded(ground, self._reach, self._limits.get(side), part=True)
             foot.borne = borne_part(ground, self._reach)
         foot.seen_partial = ground is not None
+        self._stand_on_part(side, foot.seen_partial)
 
     def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
         """Returns sides of `feet` (commanded), left first, that take weight over in a `phase` at a `time` in s, or
@@ -220,7 +231,7 @@ class FootContacts:
             return None
         self._foreseen = phase.step
         self._part = phase.step
-        center = _loaded(ground, self._reach, self._limits.get(side), -state.rotations_sole[side][2, :2])
+        center = _loaded(ground, self._reach, self._limits.get(side), -state.rotations_sole[side][2, :2], part=True)
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
     def find(
@@ -265,10 +276,11 @@ class FootContacts:
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
         lean = -rotation[2, :2]
         leans = side in self._limits and math.hypot(*lean.tolist()) > _LEANS
-        center = _loaded(contact.polygon_in_sole, self._reach, self._limits.get(side), lean)
+        part = not contact.whole
+        center = _loaded(contact.polygon_in_sole, self._reach, self._limits.get(side), lean, part)
         vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
         # Where less was seen ahead, the plan uses that; what is found now has to correct it.
-        if not contact.whole:
+        if part:
             self._part = foot.step
         as_planned = contact.whole and not known and self._foreseen != foot.step and not (foot.seen_partial or leans)
         foot.seen_partial = False
@@ -277,17 +289,29 @@ class FootContacts:
             foot.borne = borne_part(contact.polygon_in_sole, self._reach)
             every = foot.borne is contact.polygon_in_sole
             foot.support = polygon if every else polygon_in_world(foot.borne, rotation, position)
-            foot.alone = polygon_in_world(self._within_limits(side, foot.borne, lean), rotation, position)
+            foot.alone = polygon_in_world(self._within_limits(side, foot.borne, lean, part), rotation, position)
+        self._stand_on_part(side, part)
         ratio = contact.area_ratio
         whole = contact.whole
         seen = contact.seen
-        return FootholdFound(foot.step, side, polygon, ratio, vrp, middle, whole, as_planned, seen)
+        return FootholdFound(foot.step, side, polygon, ratio, vrp, middle, whole, as_planned, seen, foot.rise)
+
+    def _stand_on_part(self, side: Side, part: bool) -> None:
+        """Keep whether a foot stands on a part of its sole, and how high over it."""
+        foot = self._feet[side]
+        limits = self._limits.get(side)
+        foot.rise = 0.0
+        self.parts.pop(side, None)
+        if part:
+            self.parts[side] = foot.center
+            foot.rise = 0.0 if limits is None else limits.rise(foot.center, self.mass_ratio)
+        self.rise = max(foot.rise for foot in self._feet.values())
 
     def _within_limits(
-        self, side: Side, polygon: NDArray[np.float64], lean: NDArray[np.float64]
+        self, side: Side, polygon: NDArray[np.float64], lean: NDArray[np.float64], part: bool = False
     ) -> NDArray[np.float64]:
         limits = self._limits.get(side)
-        return polygon if limits is None else limits.within(polygon, lean)
+        return polygon if limits is None else limits.within(polygon, lean, part)
 
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float

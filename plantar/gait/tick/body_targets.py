@@ -57,7 +57,6 @@ class BodyTargets:
         """Height in m over the stance foot, blended in double support, higher over partial footholds."""
         footing = self._footing
         motion = footing.motion
-        rise = self._settings.partial_rise
         stance = phase.stance
         if stance is None:
             target = 0.5 * (motion.footholds["left"][0].item(2) + motion.footholds["right"][0].item(2))
@@ -65,6 +64,4 @@ class BodyTargets:
             target = motion.footholds[stance][0].item(2)
             # A leg that steps down has to reach the ground: the body comes down before its foot.
             target -= min(max(0.0, target - motion.comes_to), self._settings.spare_crouch)
-        if rise and (footing.contacts.partial("left") or footing.contacts.partial("right")):
-            target += rise
-        return self._ground.update(target) + self._settings.com_height
+        return self._ground.update(target + footing.contacts.rise) + self._settings.com_height

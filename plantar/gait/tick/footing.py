@@ -128,6 +128,8 @@ class Footing:
             self.contacts.lift_off(feet.side, phase.step)
         if phase.swing is not None and not motion.landed and not motion.comes_down:
             self.damping[phase.swing].fade()
+        if feet.touchdown and self._estimation.body is not None:
+            self.contacts.mass_ratio = self._estimation.body.mass_ratio
         if feet.touchdown and feet.side is not None and s.compliance is not None and s.footholds == "skin":
             self.contacts.touchdown(feet.side)
         return feet
@@ -293,7 +295,7 @@ class Footing:
         incoming = None
         if 0 < phase.step < plan.count:  # not at the two ends of the walk
             incoming = phase.swing or other_side(plan.foothold(phase.step).side)
-        parts = {side: self.contacts.center(side) for side in SIDES if self.contacts.partial(side)}
+        parts = self.contacts.parts
         turned = self.conformity.update(phase, incoming, zmp, state, sensed.percepts, self.motion.landed, parts)
         for side, turn in turned.items():
             self.motion.turn_standing(side, *turn)

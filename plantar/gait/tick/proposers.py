@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
+from plantar.gait.contact.ankle_limits import AnkleLimits
 from plantar.gait.contact.support_strip import SupportStrip
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.plan.footsteps import Footstep
@@ -20,6 +21,7 @@ from plantar.gait.propose.learned_stride import LearnedStride
 from plantar.gait.propose.proposer import Proposer
 from plantar.gait.propose.ssp_opt import touching_distance
 from plantar.gait.propose.step_adjustment import StepAdjustment
+from plantar.gait.propose.step_in_reach import StepInReach
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.layouts.layout import SoleLayout
 
@@ -34,12 +36,13 @@ def proposers(
     feet: Mapping[Side, Footstep],
     begin: float,
     middles: Mapping[Side, NDArray[np.float64]],
+    limits: Mapping[Side, AnkleLimits],
     guard: StepGuard | None,
 ) -> list[Proposer]:
     """Returns a walk's proposers in order.
 
-    `begin`: plan's start in s; `middles`: point (2,) of each sole in m under its ankle; `guard`: checks footholds; None
-    allows all.
+    `begin`: plan's start in s; `middles`: point (2,) of each sole in m under its ankle; `limits`: of each ankle;
+    `guard`: checks footholds; None allows all.
     """
     s = settings
     outlines = {side: layouts[side].outline for side in SIDES}
@@ -52,6 +55,7 @@ def proposers(
     found += [
         FootholdSeenAhead(s.foothold),
         FootholdCarries(s.foothold, middles, outlines, strip, s.ankle_reach),
+        StepInReach(limits, middles, s.foothold.least_move, s.body.leg),
     ]
     if s.compliance is not None:
         edges = _NO_GROUND * s.ground_map.sensing_range, s.foothold.largest_shift

@@ -1,25 +1,25 @@
-"""How far from its ankle a foot carries the robot, by torque limits."""
+"""How far from its ankle a foot carries the robot, and how high its leg has to stand, by torque limits."""
+
+import math
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
+from plantar.gait.contact.standing_leg import StandingLeg
 from plantar.robots.kinematics.body import pitching_joints, rolling_joints, stood
 from plantar.robots.robot import Robot
 
 
-def ankle_limits(
-    robot: Robot, model: mujoco.MjModel, weight: float, crouch: float = 0.0
-) -> dict[Side, NDArray[np.float64]]:
+def ankle_limits(robot: Robot, model: mujoco.MjModel, weight: float) -> dict[Side, NDArray[np.float64]]:
     """Where weight may act on each sole in single support, by torque limits.
 
     The weight W e_z at p has the torque a . ((p - c) x W e_z) on a joint with axis a through c: a strip of the sole for
     each joint. The ankle's joints are the last that pitches and the last that rolls.
 
-    `weight` in N; `crouch`: how much lower in m than in its posture it walks. Returns strips (m, 5) in each sole's
-    frame: unit normal (x, y), the strip's middle and half width along it in m, and the ankle's height in m, by which a
-    sloping sole moves it; none without limits.
+    `weight` in N. Returns strips (m, 5) in each sole's frame: unit normal (x, y), the strip's middle and half width
+    along it in m, and the ankle's height in m, by which a sloping sole moves it; none without limits.
     """
     data = stood(robot, model)
     limits = _torque_limits(model)
@@ -39,29 +39,40 @@ def ankle_limits(
             size = float(np.hypot(*lever))
             lever /= size
             strips.append([*lever, float(lever @ anchor[:2]), limits[turning[-1]] / weight / size, anchor[2]])
-        if len(pitching) == 3 and pitching[1] in limits:
-            places = (data.xanchor[pitching] - origin) @ rotation
-            strips.append(_knee_strip(places[:, [0, 2]], limits[pitching[1]] / weight, crouch))
         found[side] = np.array(strips).reshape(-1, 5)
     return found
 
 
-def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> list[float]:
-    """Strip across the sole in which the knee's lever is at most `reach` in m.
+def standing_legs(robot: Robot, model: mujoco.MjModel, weight: float, crouch: float) -> dict[Side, StandingLeg]:
+    """Legs as they stand in a walk, lower than in their posture by `crouch` in m, which they may rise again.
 
-    With the hip above p and the ankle at a the knee is a share s of the way from a to p, and k ahead of that line: |p -
-    (a + s (p - a) + k)| <= r. `places` (3, 2) are hip, knee and ankle in m.
+    `weight` in N. None for a leg that has not three pitching joints, or a knee without a torque limit.
     """
-    hip, knee, ankle = places
-    up = places[0] - places[2]
-    thigh = float(np.linalg.norm(hip - knee))
-    shank = float(np.linalg.norm(knee - ankle))
-    apart = max(float(np.linalg.norm(up)) - crouch, 1e-6)
-    foot = (apart**2 + shank**2 - thigh**2) / (2.0 * apart)  # of the triangle's height, from the ankle
-    share = foot / apart
-    ahead = np.sqrt(max(shank**2 - foot**2, 0.0))
-    side = np.sign(up[1] * (knee - ankle)[0] - up[0] * (knee - ankle)[1])
-    return [1.0, 0.0, float(ankle[0] + side * ahead / (1.0 - share)), reach / (1.0 - share), float(ankle[1])]
+    data = stood(robot, model)
+    limits = _torque_limits(model)
+    found: dict[Side, StandingLeg] = {}
+    joints = {side: pitching_joints(robot, side, model, data) for side in SIDES}
+    apart = math.dist(*(data.xanchor[joints[side][0]][:2] for side in SIDES))
+    for side, pitching in joints.items():
+        if len(pitching) != 3 or pitching[1] not in limits:
+            continue
+        site = model.site(robot.legs[side].sole_site).id
+        places = (data.xanchor[pitching] - data.site_xpos[site]) @ data.site_xmat[site].reshape(3, 3)
+        hip, knee, ankle = places[:, [0, 2]]
+        up = hip - ankle
+        shank = knee - ankle
+        found[side] = StandingLeg(
+            thigh=float(np.linalg.norm(hip - knee)),
+            shank=float(np.linalg.norm(shank)),
+            apart=float(np.linalg.norm(up)) - crouch,
+            rise=crouch,
+            ankle=float(ankle[0]),
+            ahead=float(np.sign(up[1] * shank[0] - up[0] * shank[1])),
+            lever=limits[pitching[1]] / weight,
+            high=float(ankle[1]),
+            aside=0.5 * apart,
+        )
+    return found
 
 
 def _torque_limits(model: mujoco.MjModel) -> dict[int, float]:

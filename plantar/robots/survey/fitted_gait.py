@@ -127,7 +127,6 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
         own_stiffness=tuple(own[0].tolist()),
         own_damping=tuple(own[1].tolist()),
         largest_crouch=crouch,
-        largest_crouch_partial=crouch,
         pace=pace,
         balance=_balance(body),
     )

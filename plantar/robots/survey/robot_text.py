@@ -155,7 +155,6 @@ def _gait(fitted: FittedGait) -> list[str]:
         f"leg_length = {body.leg:g}  # m, {leg}",
         *_comment("How much lower all joints keep their range and three quarters of their torque."),
         f"largest_crouch = {robot.largest_crouch:g}  # m",
-        f"largest_crouch_partial = {robot.largest_crouch_partial:g}  # m",
         f"trunk_lean = {robot.trunk_lean:g}  # rad/m, 0.48 in leg lengths as h1",
         *_loaded(robot),
         *_comment(

@@ -12,7 +12,7 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.propose.velocity_command import VelocityTable
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.robots.controller_settings import com_height_of, controller_settings
-from plantar.robots.kinematics.ankle_limits import ankle_limits
+from plantar.robots.kinematics.ankle_limits import ankle_limits, standing_legs
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.leg_inertia import leg_inertia
@@ -23,7 +23,7 @@ from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
-from plantar.robots.walk import crouches
+from plantar.robots.walk import crouch_of
 from plantar.sensing.link_skin import BodySkin
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.arms.worn_arm import WornArm
@@ -87,9 +87,10 @@ def walker_of(
         robot,
         body,
         ankle_sensors(legs.model, robot),
-        ankle_limits(robot, legs.model, body.weight, crouches(scene.walk, robot)[1]),
+        ankle_limits(robot, legs.model, body.weight),
         skin if scene.sensing.body_skin else None,
         leg_inertia(robot, legs, com_height_of(scene.walk, robot)),
+        standing_legs(robot, legs.model, body.weight, crouch_of(scene.walk, robot)),
     )
     motors = command_motors(robot, legs, body, scene.control, settings.period)
     controller = WalkingController(settings, start, robot.layouts, legs, motors)

@@ -236,7 +236,6 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         stance_width=0.2,
         leg_length=0.0,
         largest_crouch=0.0,
-        largest_crouch_partial=0.0,
         trunk_lean=0.0,
         single_support=0.9,
         double_support=0.3,

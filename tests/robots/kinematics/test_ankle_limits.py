@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from plantar.common.sides import SIDES
-from plantar.robots.kinematics.ankle_limits import ankle_limits
+from plantar.robots.kinematics.ankle_limits import ankle_limits, standing_legs
 from plantar.robots.kinematics.body import body_of, stood
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot_file import load_robot
@@ -18,11 +18,11 @@ def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name, slope)
     data = stood(robot, model)
     mujoco.mj_comPos(model, data)
     for side, strips in ankle_limits(robot, model, weight).items():
-        assert len(strips) == 3  # the third is the knee's: see the test of it
+        assert len(strips) == 2
         site = model.site(robot.legs[side].sole_site).id
         origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
         up = np.array([*slope, 1.0]) / np.linalg.norm([*slope, 1.0])
-        for (x, y, middle, half, high), kind in zip(strips[:2].tolist(), ("pitch", "roll"), strict=True):
+        for (x, y, middle, half, high), kind in zip(strips.tolist(), ("pitch", "roll"), strict=True):
             joint = model.joint(f"{side}_ankle_{kind}")
             moved = -high * np.dot((x, y), up[:2]) / up[2]  # the weight goes down past the joint
             for edge in (moved + middle - half / up[2], moved + middle + half / up[2]):
@@ -42,9 +42,8 @@ def test_weight_under_the_hip_loads_the_knee_as_its_strip_says(name):
     weight = body_of(robot, model).weight
     data = stood(robot, model)
     mujoco.mj_comPos(model, data)
-    for side, strips in ankle_limits(robot, model, weight).items():
-        x, y, middle, half, _ = strips[2].tolist()
-        assert (x, y) == (1.0, 0.0)
+    for side, leg in standing_legs(robot, model, weight, 0.0).items():
+        middle, half = leg.strip()
         knee = model.joint(f"{side}_knee")
         hip, ankle = (data.xanchor[model.joint(f"{side}_{name}_pitch").id] for name in ("hip", "ankle"))
         foot = int(model.site_bodyid[model.site(robot.legs[side].sole_site).id])
@@ -71,3 +70,14 @@ def test_joints_without_limits_have_no_strips():
     model = build_leg_model(robot).model
     model.actuator_forcelimited[:] = 0
     assert all(len(ankle_limits(robot, model, 800.0)[side]) == 0 for side in SIDES)
+    assert standing_legs(robot, model, 800.0, 0.0) == {}
+
+
+def test_a_leg_that_crouches_can_rise_by_as_much():
+    robot = load_robot("h1")
+    model = build_leg_model(robot).model
+    tall, low = (standing_legs(robot, model, 800.0, crouch)["left"] for crouch in (0.0, 0.03))
+    assert low.strip(low.rise) == pytest.approx(tall.strip())
+    assert (tall.thigh, tall.shank) == pytest.approx((0.3, 0.3))
+    assert tall.aside == pytest.approx(0.075)
+    assert tall.high == pytest.approx(0.129)
