@@ -3,6 +3,9 @@
 A wanted DCM xi_e takes the ZMP p(T) = xi + (xi - xi_e) / (e^(w T) - 1) for the rest T. At d outside the support polygon
 the DCM is off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14). A foot lifts later, too: with both feet down a
 DCM between them comes back, while a swing of the foot that it lies over leaves it no ground.
+
+A DCM that runs away is caught by the foot that swings, as soon as that gets to its place: from rest to rest by
+minimum jerk in sqrt(5.774 way / acceleration).
 """
 
 import math
@@ -14,6 +17,8 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 
+_PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
+
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
     """When a support's end moves.
@@ -22,15 +27,14 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
         least_error: Final DCM error in m below which the timing stays.
         price: Of a second in m/s of DCM error.
         longest: Largest extension, share of a single support; with half, h1 withstands less.
-        shortest: Largest shortening, the same share.
         pause: Between two changes in s.
     """
 
     least_error: float = share(0.04, "sole", 0, 0.2)
     price: float = share(0.0206, "leg/beat", 0, 10)
     longest: float = number(0.15, "1", 0, 5)
-    shortest: float = number(0.1, "1", 0, 0.9)
     least_left: float = fixed(0.809, "beat")  # Time in s before touchdown from which a foot is not hurried
+    acceleration: float = fixed(0.816, "leg/beat^2")  # Largest of a foot that is hurried in m/s^2
     # Longest double support, as a share of a single one; none ends sooner, for feet have to take over
     longest_double: float = fixed(2.5, "1")
     pause: float = share(0.162, "beat", 0, 5)
@@ -80,7 +84,8 @@ class StepTiming:
         sooner = 0.0
         if tick.phase.swing is not None:
             later = (1.0 + rules.longest) * usual - begun - left
-            sooner = left - max(rules.least_left, (1.0 - rules.shortest) * usual - begun)
+            way = math.hypot(*tick.feet.ahead.tolist())
+            sooner = left - max(rules.least_left, math.sqrt(_PEAK * way / rules.acceleration))
         best = 0.0
         least = missed(left)
         for sign, most in ((1.0, later), (-1.0, sooner)):

@@ -42,7 +42,7 @@ def test_the_foot_can_land_while_the_body_rests_over_the_load(plan_of, tick_at):
     assert change.step == 2
     assert change.shift == (0.0, 0.0)
     less = planned.x - change.foothold.x
-    assert LEAST < less < BODY / 15
+    assert LEAST < less < BODY / 20
     reach = LEG.spread(abs(planned.y - found.vrp.item(1)), found.rise)
     assert change.foothold.x - found.vrp.item(0) == pytest.approx(reach)
     plan.apply(change, phase.start + 0.005, NOWHERE)
@@ -62,7 +62,7 @@ def test_a_step_is_shortened_by_so_much_at_most(plan_of, tick_at):
     plan = plan_of(6, length=0.2)
     planned = plan.view.foothold(2)
     change = swung(proposer_with(LEG, middle=0.1), plan, tick_at, found_in(plan, 1, 0.1))[1]
-    assert planned.x - change.foothold.x == pytest.approx(BODY / 15)
+    assert planned.x - change.foothold.x == pytest.approx(BODY / 20)
 
 
 @pytest.mark.parametrize("why", ["whole", "in reach", "another step", "no knee", "next out of reach"])

@@ -67,9 +67,11 @@ def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed):
     assert change.reason == "DCM ahead"
     assert change.longer == pytest.approx(-0.06, abs=2.0 * PERIOD)
     _, far = timed(NOW, late_by(-0.3))
-    hurried = proposed(far, price=0.0)
-    assert hurried.longer == pytest.approx(-RULES.shortest * 0.9, abs=1.5 * PERIOD)  # of a single support, and no more
-    assert proposed(far, shortest=0.0) is None or proposed(far, shortest=0.0).longer > 0.0
+    left = far.phase.end - NOW
+    assert left + proposed(far, price=0.0).longer == pytest.approx(RULES.least_left, abs=PERIOD)
+    way = np.array([0.1, 0.0])  # m, which takes a foot longer
+    hurried = proposed(far.changed(feet=far.feet.changed(ahead=way)), price=0.0)
+    assert left + hurried.longer == pytest.approx(math.sqrt(5.774 * 0.1 / RULES.acceleration), abs=PERIOD)
 
 
 def test_what_the_zmp_can_do_is_left_to_it(timed):
@@ -132,7 +134,7 @@ def test_a_change_is_the_best_that_there_is_and_worth_its_price(timed, seed):
     before = missed(tick, left)
     begun = time - tick.phase.start
     longest = (1.0 + RULES.longest) * 0.9 - begun
-    least = max(RULES.least_left, (1.0 - RULES.shortest) * 0.9 - begun)
+    least = RULES.least_left  # the foot is at its place already
     later, sooner = np.arange(left, longest + 1e-9, PERIOD), np.arange(left, least - 1e-9, -PERIOD)
     allowed = later.tolist() + sooner.tolist()
     best = min([missed(tick, t) + RULES.price * abs(t - left) for t in allowed], default=before)
