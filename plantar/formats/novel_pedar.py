@@ -18,7 +18,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_insole
-from plantar.formats.recorded_layouts import cells_by_id, corner_table, layout_of_corners
+from plantar.formats.recorded_layouts import cells_by_id, polygon_layout
 from plantar.formats.stated_rate import stated_rate
 from plantar.formats.text import head_text, number_rows, open_text, row_of_numbers
 from plantar.formats.units import Unit, find_unit, plain
@@ -60,7 +60,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     named = {name: _field(text, rf"{words}:?\s*({_NUMBER})") or "" for name, words in _RATES.items()}
     time, rate, doubts = sampling(time, options.rate_hz or stated_rate(named, warnings), options.rate_hz)
     warnings += doubts
-    geometry = corner_table(tail, len(columns), warnings) if layout is None else None
+    geometry = _corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
     for (side, span), values in zip(sides, parts, strict=True):
         sole = _layout(side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size)
@@ -258,7 +258,7 @@ def _layout(
         warnings.append(
             "cell geometry from the file's own corner table; its y is taken as forward, its x as to the right"
         )
-        return layout_of_corners(geometry, cells, side)
+        return _layout_of_corners(geometry, cells, side)
     size, assumed = _size(text, insole_size)
     sole = cells_by_id(nominal_insole(size, side), cells)
     if sole is None:
@@ -286,6 +286,37 @@ def _size(text: str, given: str | None) -> tuple[str, str]:
         f" (assumed, the file names no known size: by the true one of {', '.join(CELL_AREAS)}, forces may be "
         f"{min(sizes) / used:.2f} to {max(sizes) / used:.2f} times these; give it by --insole-size)"
     )
+
+
+def _corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
+    """Returns corners (cells, 4, 2) in m in file axes, from rows "x[0]" .. "y[3]" (in cm) of its tail.
+
+    None without a whole table; reported in warnings.
+    """
+    rows: dict[str, NDArray[np.float64]] = {}
+    for line in tail:
+        if match := re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line):
+            rows[match[1]], _ = row_of_numbers(match[2].split())
+    if not rows:
+        return None
+    table = [rows.get(f"{axis}[{corner}]", np.zeros(0)) for corner in range(4) for axis in "xy"]
+    if any(len(row) != cells or not np.isfinite(row).all() for row in table):
+        warnings.append("the file's table of cell corners is not whole, or holds values that are no numbers: not used")
+        return None
+    return np.array(table).T.reshape(cells, 4, 2) * 1e-2
+
+
+def _layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
+    """Returns layout of a side's quadrilateral cells by corners (n, 4, 2) in m in file axes.
+
+    File y becomes x (forward), file x becomes -y (right).
+    """
+    import shapely  # only where a file brings its own geometry
+
+    turned = np.stack([corners[:, :, 1], -corners[:, :, 0]], axis=-1)
+    polygons = [shapely.geometry.polygon.orient(shapely.MultiPoint(c).convex_hull) for c in turned]
+    rings = [np.array(p.exterior.coords)[:-1] for p in polygons]
+    return polygon_layout(rings, ids=cells, side=side, name="pliance mat")
 
 
 FORMAT = Format(

@@ -1,6 +1,5 @@
-"""Layouts that a recording describes: matrices, cell corners, and parts."""
+"""Layouts that a recording describes: matrices, polygons, and parts."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -8,7 +7,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import FormatError, LayoutError
-from plantar.formats.text import row_of_numbers
 from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
@@ -157,34 +155,3 @@ def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
         areas=layout.areas[keep],
         ids=layout.ids[keep],
     )
-
-
-def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
-    """Returns corners (cells, 4, 2) in m in file axes, from rows "x[0]" .. "y[3]" (in cm) of its tail.
-
-    None without a whole table; reported in warnings.
-    """
-    rows: dict[str, NDArray[np.float64]] = {}
-    for line in tail:
-        if match := re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line):
-            rows[match[1]], _ = row_of_numbers(match[2].split())
-    if not rows:
-        return None
-    table = [rows.get(f"{axis}[{corner}]", np.zeros(0)) for corner in range(4) for axis in "xy"]
-    if any(len(row) != cells or not np.isfinite(row).all() for row in table):
-        warnings.append("the file's table of cell corners is not whole, or holds values that are no numbers: not used")
-        return None
-    return np.array(table).T.reshape(cells, 4, 2) * 1e-2
-
-
-def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
-    """Returns layout of a side's quadrilateral cells by corners (n, 4, 2) in m in file axes.
-
-    File y becomes x (forward), file x becomes -y (right).
-    """
-    import shapely  # only where a file brings its own geometry
-
-    turned = np.stack([corners[:, :, 1], -corners[:, :, 0]], axis=-1)
-    polygons = [shapely.geometry.polygon.orient(shapely.MultiPoint(c).convex_hull) for c in turned]
-    rings = [np.array(p.exterior.coords)[:-1] for p in polygons]
-    return polygon_layout(rings, ids=cells, side=side, name="pliance mat")
