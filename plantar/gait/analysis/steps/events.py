@@ -32,7 +32,7 @@ class EventLevels:
 
 EVENT_LEVELS: Mapping[Kind, EventLevels] = {
     "insole": EventLevels(0.05, 0.10, 0.10, 0.02),
-    "robot": EventLevels(0.05, 0.10, 0.05),
+    "robot": EventLevels(0.02, 0.10, 0.02),
     "platform": EventLevels(0.02, 0.05, 0.02),
     "plate": EventLevels(0.02, 0.05, 0.03),
 }

@@ -6,7 +6,7 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.steps.events import Kind, find_contacts, force_levels
+from plantar.gait.analysis.steps.events import Kind, find_contacts, force_levels, threshold_levels
 
 from ..walks import two_humps
 
@@ -22,9 +22,9 @@ def steps(rate: float = 100.0, n: int = 5, peak: float = 700.0, rest: float = 0.
 @pytest.mark.parametrize("rate", [31.25, 75.0, 100.0, 250.0])
 def test_half_sine_contacts_are_timed_between_samples(rate):
     time, force = steps(rate)
-    contacts = find_contacts(time, force)
+    levels = threshold_levels(force_levels(force), 35.0)
+    contacts = find_contacts(time, force, levels)
     assert len(contacts) == 5
-    levels = force_levels(force)
     late = 0.6 / np.pi * np.arcsin(levels.release / 700.0)  # where the half sine crosses the level
     for i, contact in enumerate(contacts):
         assert contact.heel_strike == pytest.approx(i + 0.2 + late, abs=0.25 / rate)
