@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.sides import SIDES
 from plantar.errors import InputError
 from plantar.formats.field_names import heading_of
 from plantar.formats.side import is_side_column, side_column, side_of
 from plantar.formats.table_text import time_unit
+from plantar.formats.units import find_unit
 
 _LOADS = ("force", "cop", "moment", "place", "pressure", "cell", "number")
 _ALLOWED = (
@@ -68,6 +70,8 @@ def mapped_columns(wanted: Mapping[str, str], names: Sequence[str], width: int) 
             unit = heading_of(names[i]).unit if names and not heading_of(key).unit else ""
             name = key if side is None else f"{key} force" if len(columns) == 1 else f"{key} {count}"
             out[i] = f"{name} [{unit}]" if unit and time_unit(key) is None else name
+            if names and time_unit(key) == 0.0 and time_unit(names[i]):
+                out[i] = names[i]  # which states the unit
         if len(columns) > 1 and side is None:
             raise InputError(
                 f"--columns gives {key!r} {len(columns)} columns; allowed: one, or several of left or right"
@@ -103,8 +107,10 @@ def _shown(i: int, names: Sequence[str]) -> str:
     return name if plain else str(i + 1)
 
 
-def proposed_map(names: Sequence[str], table: NDArray[np.float64]) -> str:
+def proposed_map(names: Sequence[str], table: NDArray[np.float64], among: Sequence[int] | None = None) -> str:
     """Returns the map of a table (n, k) that names do not tell, filled in as far as they and the numbers go.
+
+    The loads are `among` some columns, where these are known.
 
     Six columns with negative values are a plate's channels; one that reaches 150 is its vertical force; others are one
     or two feet's cells. Columns that may be anything are not filled in.
@@ -115,15 +121,19 @@ def proposed_map(names: Sequence[str], table: NDArray[np.float64]) -> str:
     counters = [i for i in rising if (steps[:, i] == 1.0).all()]
     timed = [i for i, n in enumerate(names) if time_unit(n) is not None]
     timed = timed or [i for i in rising if i not in counters]
-    of_side = side_column([""] * table.shape[1], table)
+    of_side = side_column(names or [""] * table.shape[1], table)
     sides = [] if of_side is None else [of_side]
     rest = [i for i in range(table.shape[1]) if i not in (*timed[:1], *counters, *sides)]
     parts = [f"time={_shown(timed[0], names)}"] if timed else []
     if sides and len(rest) == 1:
         parts += [f"side={_shown(sides[0], names)}", f"force={_shown(rest[0], names)}"]
         return f'--columns "{", ".join(parts)}"'
-    rest = _possible_loads(names, table, rest) if names else rest
+    if among is not None:
+        rest = list(among)
+    elif names:
+        rest = _possible_loads(names, table, rest)
     if not rest:
+        unknown = f"side={_shown(sides[0], names)}, force=COLUMN" if sides else unknown
         return f'--columns "{", ".join([*parts, unknown])}"'
     lows = np.nanmin(table[:, rest], axis=0, initial=0.0)
     highs = np.nanmax(np.abs(table[:, rest]), axis=0, initial=1e-9)
@@ -152,15 +162,20 @@ def _has_constant(values: NDArray[np.float64]) -> bool:
 
 
 def _possible_loads(names: Sequence[str], table: NDArray[np.float64], columns: Sequence[int]) -> list[int]:
-    """Columns that names show as loads, else numbered ones of one word without negative values; else none."""
+    """Columns that names show as loads, else those in a unit of force, else numbered ones of one word without negative
+    values; else none."""
     headings = {i: heading_of(names[i]) for i in columns}
     loads = [
         i for i, h in headings.items() if h.quantity in _LOADS and (h.quantity != "number" or h.number is not None)
     ]
-    if any(headings[i].axis in ("x", "y", "z") for i in loads):
+    axes = {headings[i].axis for i in loads} & {"x", "y", "z"}
+    if axes and not (axes == {"z"} and sorted(headings[i].side or "" for i in loads) == list(SIDES)):
         return []  # of a plate, and which is a force is not to be seen
     if loads:
         return loads
+    stated = [i for i, h in headings.items() if (unit := find_unit(h.unit)) is not None and unit.kind == "force"]
+    if stated:
+        return stated
     numbered = [i for i, h in headings.items() if h.quantity == "unknown" and h.number is not None and not h.axis]
     alike = len({headings[i].words for i in numbered}) == 1 and len(numbered) > _FEWEST
     return numbered if alike and not (table[:, numbered] < 0.0).any() else []

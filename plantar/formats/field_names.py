@@ -23,9 +23,9 @@ BODY_WEIGHTS: dict[str, float] = {
 """Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
 
 # Where each is seen: OpenSim .mot (ground_force_vx), Cortex .forces (FX1), D-Flow (FP1.ForX), Vicon Nexus (Fx, Force
-# Plate #1), BioWare (Ax), BTK (F1X), Visual3D (COFP), AMTI (FX), novel (links, Kraft), loadsol (Force[N]),
-# Noraxon (LT), Moticon (total force), OrthoTrak (R_GRF_VRT, R_GRF_FWD), Arduino sketches (FSR1, A0, millis), theses
-# in ten languages.
+# Plate #1), BioWare (Ax [m]), BTK (F1X), Visual3D (COFP), AMTI (FX), novel (links, Kraft), loadsol (Force[N]),
+# Noraxon (LT), Moticon (total force), OrthoTrak (R_GRF_VRT, R_GRF_FWD), Vernier (Latest: Force), Arduino sketches
+# (FSR1, A0, millis), theses in ten languages.
 _WORDS_OF_KIND = {
     "left": "l lt li left links linker linke linkes gauche izquierdo izquierda izq sinistro sinistra "
     "esquerdo esquerda 左",
@@ -40,7 +40,7 @@ _WORDS_OF_KIND = {
     "ml": "ml mediolateral lateral lat medial",
     "plate": "fp plate forceplate platform plattform belt treadmill tm ground amti kistler bertec",
     "plain": "net foot feet fuss fuß pied pie piede voet pé 足 leg limb side of the in insole insoles sole shoe "
-    "component comp value data signal noraxon ultium loadsol",
+    "component comp value data latest signal noraxon ultium loadsol",
     "total": "total sum gesamt summe totale tot",
     "cell": "cell cells sensor sens taxel sensel fsr fsrs pad zelle s c p a adc heel hindfoot rearfoot calcaneus mid "
     "midfoot arch met meta metatarsal mt mth forefoot toe toes hallux bigtoe big great ball ferse zehe inner outer mtp "
@@ -72,6 +72,7 @@ _UNIT = re.compile(
 _VOLTS = re.compile(r"(?i)[fm]\d*[xyz]\d*[_ ](m?v|volts?)$")  # of a plate's channel; after another word v is vertical
 _LETTER = re.compile(r"(plate|platform|fp|belt)[ _-]?([a-d])(?![a-z])", re.IGNORECASE)  # instead of a number
 _COORDINATE = re.compile(r"\[[0-2]\]\s*$")  # of a marker, as LTOE[0]
+_PLACE_OF_KISTLER = re.compile(r"A([xy])(\d*)\s*")  # of BioWare: a place where in m, else an acceleration
 _ADAPTER = re.compile(r"([fpm])(\d+)_([123])")
 _STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
 
@@ -134,6 +135,8 @@ def heading_of(text: str) -> Heading:
             name = name[: match.start()] + " " + name[match.end() :]
         else:
             name = name[: match.start()] + " " + stated + " " + name[match.end() :]
+    if plain(unit) in LENGTHS:
+        name = _PLACE_OF_KISTLER.sub(r"COP\1\2", name) if _PLACE_OF_KISTLER.fullmatch(name) else name
     found = _heading(name, unit)
     of_marker = _COORDINATE.search(text) is not None and not _PLACES.isdisjoint(found.words.split())
     return replace(found, quantity="foreign") if of_marker else found

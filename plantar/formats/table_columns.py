@@ -1,8 +1,9 @@
 """Number table with named columns as a recording."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ from plantar.formats.units import find_unit, plain
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 
 _CLOCK = re.compile(r"(?i)time|zeit|tiempo|temp[os]|tijd|clock|elapsed|epoch|[\[({（]m?s([ei][cgk]\w*)?[\])}）]|秒|^s$")
+_MEASURE = re.compile(r"(?i)(?<![a-z])(?:step|stride|stance|swing)[ _]?(?:length|width|time|duration|velocity|speed)")
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 _SLOWEST = 5.0  # Hz: rows that are farther apart are steps or minutes, and no frames
@@ -57,6 +59,8 @@ def recording_of_columns(
             f"the table has {len(table)} row(s) of numbers, which is no recording over time; allowed: a row a frame"
         )
     names = spelled_out(names) if names else _laid_out(table, options, warnings)
+    _refuse_measures(names)
+    propose = partial(proposed_map, names, table)
     of_side = side_column(names, table)
     at = _clock(table, names)
     if of_side is not None:
@@ -97,7 +101,7 @@ def recording_of_columns(
         used = {i for i in columns if headings[i].quantity in ("force", "cop", "moment", "place")}
         _report_left_out([names[i] for i in columns if i not in used], warnings, "load")
     else:
-        feet, raw = _cells(table, names, headings, columns, both, facts, options, warnings)
+        feet, raw = _cells(table, names, headings, columns, both, facts, options, propose, warnings)
     return PressureRecording(
         path=path,
         format="csv",
@@ -198,6 +202,16 @@ def _refuse_feet_in_turns(table: NDArray[np.float64], at: int) -> None:
         raise FormatError(
             "each time is there twice, with different loads, as of two feet in turns, and no column names the foot; "
             "allowed: a column of feet (side: left or right), or a row a time"
+        )
+
+
+def _refuse_measures(names: Sequence[str]) -> None:
+    """FormatError where columns are measures of steps, and none is called a load."""
+    measures = [name for name in names if _MEASURE.search(name)]
+    if len(measures) > 1 and not any(heading_of(name).quantity in ("force", "pressure", "cell") for name in names):
+        raise FormatError(
+            f"each row is a step, as {measures[0]!r} and {measures[1]!r} show; allowed: a row a frame, with forces or "
+            "pressures"
         )
 
 
@@ -317,6 +331,7 @@ def _cells(
     both: dict[Side, list[int]],
     facts: dict[str, str],
     options: ReadOptions,
+    propose: Callable[..., str],
     warnings: list[str],
 ) -> tuple[dict[Side, FootRecording], bool]:
     _refuse_two_loads(names, headings, columns)
@@ -326,14 +341,18 @@ def _cells(
         raise FormatError(
             f"no column of the table is a load; its columns are {', '.join(map(repr, names[:8]))}; allowed: names of "
             "cells (left 3 [kPa], heel) or of forces (Left Fz [N], FP1 Fz), or which is which: "
-            f"{proposed_map(names, table)}"
+            f"{propose()}"
         )
     _refuse_signs(table[:, chosen])
     if options.layout is None:
         report_missing_cells(table, headings, chosen, columns, warnings)
     found = [headings[i].unit for i in chosen if headings[i].unit]
     if len({find_unit(u) for u in found}) > 1:
-        raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
+        forces = [i for i in chosen if (unit := find_unit(headings[i].unit)) is not None and unit.kind == "force"]
+        raise FormatError(
+            f"the columns are in different units: {', '.join(sorted(set(found)))}; allowed: those of one, such as "
+            f"{propose(among=forces)}"
+        )
     stated = facts.get("unit", facts.get("units")) or (max(set(found), key=found.count) if found else None)
     unit = unit_of_values(stated, options, warnings, "the table")
     by_side: dict[Side | None, list[int]] = {}
@@ -347,7 +366,7 @@ def _cells(
     parts = [(side, _taken(table, by_side[side])) for side in SIDES if side in by_side]
     if not parts:
         stated_side = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
-        parts = _of_no_named_foot(table, names, nameless, stated_side, options, warnings)
+        parts = _of_no_named_foot(table, nameless, stated_side, options, propose, warnings)
     feet = {}
     for side, part in parts:
         ids = [n for i in by_side.get(side, nameless) if (n := headings[i].number) is not None]
@@ -368,10 +387,10 @@ def _refuse_signs(values: NDArray[np.float64]) -> None:
 
 def _of_no_named_foot(
     table: NDArray[np.float64],
-    names: list[str],
     cells: list[int],
     stated: Side | None,
     options: ReadOptions,
+    propose: Callable[..., str],
     warnings: list[str],
 ) -> list[tuple[Side, NDArray[np.float64]]]:
     """Feet of cells that name none: two of the layout's, else the stated one, else the left one."""
@@ -385,7 +404,7 @@ def _of_no_named_foot(
     if stated is None and layout is None and feet_in_turns(values):
         raise FormatError(
             f"the two halves of {len(cells)} cells carry load in turns, as two feet do, and name none; allowed: names "
-            f"such as left 1, or which is which: {proposed_map(names, table)} (--side, if they are one foot's)"
+            f"such as left 1, or which is which: {propose()} (--side, if they are one foot's)"
         )
     if stated is None:
         stated = "left" if layout is None else layout.side

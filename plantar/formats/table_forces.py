@@ -33,8 +33,13 @@ _TOTALS = {"total", "sum", "gesamt", "summe", "totale", "tot"}  # of both feet, 
 def is_force_table(headings: Sequence[Heading]) -> bool:
     """Whether headings, without times, are forces of plates or whole feet: of an axis, ground, plate, or one a foot."""
     forces = [h for h in headings if h.quantity == "force"]
+    whole = {h.side for h in forces if h.number is None}  # whose one pressure is the mean or the largest of its cells
     cells = [
-        h for h in headings if h.quantity in ("cell", "pressure") or (h.quantity == "number" and h.number is not None)
+        h
+        for h in headings
+        if (h.quantity == "pressure" and (h.number is not None or h.side not in whole))
+        or h.quantity == "cell"
+        or (h.quantity == "number" and h.number is not None)
     ]
     if any(h.axis or h.plate for h in forces) and not (len(cells) > 2 * len(forces)):
         return True

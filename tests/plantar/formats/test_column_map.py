@@ -133,3 +133,50 @@ def test_a_named_load_beside_one_foots_name_is_asked_for(tmp_path):
     columns = printed(path)
     assert columns == "right=force"
     check(analyse(path, columns="time=time, right=force"), ["right"])
+
+
+@pytest.mark.parametrize(
+    ("names", "columns", "wanted"),
+    [
+        ("time[secs],force[N],pressure[kPa],area[cm2],force[N],pressure[kPa],area[cm2]", "LpaRpa", "left=2, right=5"),
+        ("Time [s],Z Left,Z Right", "LR", "left=Z Left, right=Z Right"),
+        ("Time [s],links innen (N),rechts innen (N)", "LR", "left=links innen (N), right=rechts innen (N)"),
+    ],
+)
+def test_the_printed_map_of_two_forces_mends_it(tmp_path, names, columns, wanted):
+    """A novel .fgt, whose names begin again; a jump plate's vertical axes; an unknown word with a unit of force."""
+    held = {"L": LEFT, "R": RIGHT, "p": 0.2 * LEFT, "a": 0.01 * LEFT}
+    path = tmp_path / "walk.csv"
+    path.write_text(names + "\n" + rows([TIME, *(held[c] for c in columns)], ","))
+    assert printed(path).endswith(wanted)
+    walk = analyse(path, columns=printed(path))
+    check(walk)
+    assert not any("times state no unit" in w for w in walk.recording.warnings)  # the map keeps the clock's unit
+
+
+def test_mean_pressures_and_areas_beside_a_foots_force_are_no_cells(tmp_path):
+    path = tmp_path / "walk.csv"
+    names = [f"{side} {what}" for side in ("left", "right") for what in ("force[N]", "pressure[kPa]", "area[cm2]")]
+    columns = [TIME, LEFT, 0.2 * LEFT, 0.01 * LEFT, RIGHT, 0.2 * RIGHT, 0.01 * RIGHT]
+    path.write_text(",".join(["time[secs]", *names]) + "\n" + rows(columns, ","))
+    check(analyse(path))
+
+
+def test_measures_of_steps_are_refused_as_such(tmp_path):
+    path = tmp_path / "steps.csv"
+    steps = np.arange(12.0)
+    path.write_text("Record #,Foot,Step Length,Stride Length,Step Time\n")
+    path.write_text(
+        path.read_text() + rows([steps + 1, steps % 2, 60 + 0 * steps, 120 + 0 * steps, 0.5 + 0 * steps], ",")
+    )
+    with pytest.raises(FormatError, match="each row is a step, as 'Step Length' and 'Stride Length' show"):
+        analyse(path)
+
+
+def test_places_of_a_plate_are_its_center_of_pressure_where_in_metres(tmp_path):
+    """BioWare's Ax and Ay; of an inertial sensor they are accelerations."""
+    path = tmp_path / "plate.txt"
+    place = [0.3 + 0.2 * np.clip(TIME % 1.0, 0.0, 1.0), 0.1 + 0.0 * TIME]
+    path.write_text("Time [s]\tFx [N]\tFy [N]\tFz [N]\tAx [m]\tAy [m]\n" + rows([TIME, *[0 * TIME] * 2, RIGHT, *place]))
+    walk = analyse(path, options=ReadOptions(side="right"))
+    assert np.nanmax(walk.feet["right"].cop[:, 0]) == pytest.approx(0.5, abs=0.02)
