@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.recordings.frame_table import blocks_of_frames, column_maxima, let_go, put_rows, room
+from plantar.recordings.frame_table import blocks_of_frames, let_go, put_rows, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
 _FORCE = (15.0, 6000.0)
@@ -134,7 +134,7 @@ def doubts(recording: PressureRecording) -> list[str]:
             out.append(f"the {side} foot's force falls to {force.min():.4g} N: check its zero and its sign")
         if foot.layout is None or recording.kind == "plate":
             continue
-        highest = float(np.max(column_maxima(foot.force) / foot.layout.areas, initial=0.0))
+        highest = float(np.max(foot.extremes[1] / foot.layout.areas, initial=0.0))
         if highest > 0.0 and not _PRESSURE[0] <= highest <= _PRESSURE[1] and recording.kind != "robot":
             out.append(f"the {side} foot's peak pressure is {highest / 1e3:.4g} kPa, which is unusual: check the unit")
         cell = float(np.median(foot.layout.areas))
@@ -271,7 +271,7 @@ def without_marks(recording: PressureRecording) -> PressureRecording:
     for side, foot in recording.feet.items():
         force = foot.force
         per = _areas_or_ones(foot, recording.raw)
-        for mark in _marks(force, per, foot.layout is not None and not recording.raw):
+        for mark in _marks(foot, per, foot.layout is not None and not recording.raw):
             force, count = _left_out(force, per, mark)
             shown = _shown(mark, foot, recording.raw)
             warnings.append(
@@ -283,15 +283,18 @@ def without_marks(recording: PressureRecording) -> PressureRecording:
     return recording if feet == recording.feet else replace(recording, feet=feet, warnings=tuple(warnings))
 
 
-def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: bool) -> list[float]:
-    """Marks among readings (n, k), each divided by one of (k,) numbers."""
+def _marks(foot: FootRecording, per: NDArray[np.float64], are_pressures: bool) -> list[float]:
+    """Marks among a foot's readings (n, k), each divided by one of (k,) numbers."""
+    force = foot.force
     if not force.size:
         return []
     every = max(1, force.size // _SAMPLED)
     parts = [force[rows][-rows.start % every :: every].copy() for rows in blocks_of_frames(force)]  # page by page
     sample = np.concatenate(parts) / per
     sample = np.unique(sample[np.isfinite(sample)])
-    lowest, highest = _ends(force, per)
+    low, high = foot.extremes
+    lowest = float((low / per).min())
+    highest = float((high / per).max())
     found = []
     others = sample[(sample > 0.0) & ~_is(sample, highest)]
     if len(others) >= _LEVELS and highest >= _BEYOND * others[-1]:  # as of all that were read, or more
@@ -315,15 +318,6 @@ def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: 
         if _FEWEST <= count == below <= _MOST * force.size:
             found.append(lowest)
     return found
-
-
-def _ends(force: NDArray[np.float64], per: NDArray[np.float64]) -> tuple[float, float]:
-    low = np.zeros(len(per))
-    high = np.zeros(len(per))
-    for rows in blocks_of_frames(force):
-        np.fmin(low, np.fmin.reduce(force[rows], axis=0, initial=0.0), out=low)
-        np.fmax(high, np.fmax.reduce(force[rows], axis=0, initial=0.0), out=high)
-    return float((low / per).min()), float((high / per).max())
 
 
 def _is(value: NDArray[np.float64], mark: float) -> NDArray[np.bool_]:

@@ -87,16 +87,23 @@ def scale_frames(values: NDArray[np.float64], factor: float | NDArray[np.float64
         put_rows(values, rows.start, values[rows] * factor)
 
 
-def column_maxima(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Largest number (k,) of each column of a table (n, k), without missing ones; at least 0."""
-    top = np.zeros(values.shape[1])
+def column_extremes(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Smallest and largest number (k,) of each column of a table (n, k), at most and at least 0."""
+    low = np.zeros(values.shape[1])
+    high = np.zeros(values.shape[1])
     for rows in blocks_of_frames(values):
         part = values[rows]
-        while len(part) > 1:  # by halves: whole rows at once are many times as quick as row by row
-            half = (len(part) + 1) // 2
-            part = np.fmax(part[:half], part[-half:])
-        np.fmax(top, part[0], out=top)
-    return top
+        np.fmin(low, _by_halves(np.fmin, part), out=low)
+        np.fmax(high, _by_halves(np.fmax, part), out=high)
+    return low, high
+
+
+def _by_halves(chosen: Callable[..., NDArray[np.float64]], rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """`chosen.reduce(rows)`: whole rows at once are many times as quick as row by row."""
+    while len(rows) > 1:
+        half = (len(rows) + 1) // 2
+        rows = chosen(rows[:half], rows[-half:])
+    return np.asarray(rows[0])
 
 
 def let_go(array: NDArray[Any]) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.layouts.layout import Side, SoleLayout, mirrored
-from plantar.recordings.frame_table import blocks_of_frames, table_of_blocks
+from plantar.recordings.frame_table import blocks_of_frames, column_extremes, table_of_blocks
 
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
@@ -81,6 +81,11 @@ class FootRecording:
             return self.force
         missing = self.missing
         return table_of_blocks(self.force, lambda rows: np.where(missing[rows], 0.0, self.force[rows]))
+
+    @cached_property
+    def extremes(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Smallest and largest force (k,) of each cell, at most and at least 0."""
+        return column_extremes(self.force)
 
     @cached_property
     def vertical_force(self) -> NDArray[np.float64]:

@@ -120,7 +120,9 @@ def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
         along = along[np.isfinite(along)]
         few = max(1, round(_ENDS * len(along)))
         if len(along) >= 5:
-            rows.append((along[:few].mean(), along[-few:].mean(), np.sort(along)[len(along) // 20]))
+            rows.append(
+                (along[:few].mean(), along[-few:].mean(), np.partition(along, len(along) // 20)[len(along) // 20])
+            )
     return np.array(rows).reshape(-1, 3)
 
 

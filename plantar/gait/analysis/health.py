@@ -12,7 +12,7 @@ from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.summary import spread
 from plantar.layouts.layout import SoleLayout
-from plantar.recordings.frame_table import column_maxima, let_go
+from plantar.recordings.frame_table import let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 _BESIDE = 1.7  # Usual distances between cells up to which they are neighbours: the eight around a cell of a matrix
@@ -62,8 +62,8 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     layout = foot.layout
     none = SilentCells(np.zeros(0, dtype=np.int64), 0.0)
     if layout is None or len(layout) < 8:
-        return none if other is None else _silent_beside(foot.force, other.force) or none
-    top = column_maxima(foot.force) / layout.areas
+        return none if other is None else _silent_beside(foot, other) or none
+    top = foot.extremes[1] / layout.areas
     zero = top <= 0.0
     if not zero.any() or zero.all():
         return none
@@ -71,7 +71,7 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     carries = top > _CARRIES * float(np.percentile(top[~zero], 90.0))
     mirror = np.zeros(len(layout), dtype=bool)
     if other is not None and other.layout is not None:
-        theirs = column_maxima(other.force) / other.layout.areas
+        theirs = other.extremes[1] / other.layout.areas
         mirror = _at_mirrored(layout, other.layout, theirs > _CARRIES * float(np.percentile(theirs, 90.0)))
     silent = zero & mirror if (zero & mirror).sum() >= _MANY * len(layout) else np.zeros(len(layout), dtype=bool)
     for _ in range(3):  # silent cells next to silent ones are found by those that were found
@@ -101,16 +101,16 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     return SilentCells(cells, lacking / whole if whole > 0.0 else 0.0)
 
 
-def _silent_beside(own: NDArray[np.float64], theirs: NDArray[np.float64]) -> SilentCells | None:
+def _silent_beside(own: FootRecording, theirs: FootRecording) -> SilentCells | None:
     """Cells that read 0 where the other foot's carry load, if it has fewer of them: else their order may differ."""
-    if own.shape[1] != theirs.shape[1] or own.shape[1] >= _MOSAIC:
+    if own.force.shape[1] != theirs.force.shape[1] or own.force.shape[1] >= _MOSAIC:
         return None
-    zero = column_maxima(own) <= 0.0
-    top = column_maxima(theirs)
+    zero = own.extremes[1] <= 0.0
+    top = theirs.extremes[1]
     silent = zero & (top > _CARRIES * float(np.percentile(top, 90.0)))
     if not silent.any() or zero.all() or zero.sum() <= (top <= 0.0).sum():
         return None
-    load = np.nan_to_num(theirs).sum(axis=0)
+    load = np.nan_to_num(theirs.force).sum(axis=0)
     return SilentCells(np.flatnonzero(silent), float(load[silent].sum() / load.sum()))
 
 
@@ -316,7 +316,7 @@ def _overload(recording: PressureRecording, side: Side) -> str:
     foot = recording.feet[side]
     if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
         return ""
-    highest = float(column_maxima(foot.force).max())
+    highest = float(foot.extremes[1].max())
     rated = float(max(foot.layout.ranges["force"]))
     if not rated > 0.0 or highest <= _FULL * rated:
         return ""

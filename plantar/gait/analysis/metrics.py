@@ -108,7 +108,8 @@ def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
 
 
 def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
-    steps = [s for side, own in segment.steps.items() for s in feet[side].steps if s.number in own]
+    numbers = {side: set(own) for side, own in segment.steps.items()}
+    steps = [s for side, own in numbers.items() for s in feet[side].steps if s.number in own]
     means = {
         key: spread([s[key] for s in steps]).mean
         for key in ("stride_time_s", "contact_time_s", "double_support_percent")

@@ -348,12 +348,14 @@ def _place(
 ) -> Place | None:
     if contact.cut:
         return Place(float(recording.time[contact.begin]), np.full(2, np.nan), np.full(2, np.nan), walk=contact.walk)
-    step = next(s for s in gait.steps if s.contact is contact)
     placement = gait.foot.placement
+    if placement is None and recording.kind != "platform":
+        return None
+    step = next(s for s in gait.steps if s.contact is contact)
     if placement is not None:
         x, y, turn = placement[(contact.begin + contact.end) // 2]
         return Place(step.heel_strike_s, np.array([x, y]), np.array([np.cos(turn), np.sin(turn)]))
-    if recording.kind != "platform" or step.footprint is None:
+    if step.footprint is None:
         return None
     of_step = print_of_contact(contact, step.side, prints)
     forward = None if of_step is None else of_step.forward
