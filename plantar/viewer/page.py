@@ -23,6 +23,7 @@ from plantar.common.pages.page import with_policy
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording
+from plantar.sensing.activation import active_of
 from plantar.viewer.messages import Entity, Shape
 from plantar.viewer.walk import Walk, read_walk
 
@@ -122,6 +123,7 @@ def _view(number: int, walk: Walk, alone: bool) -> str:
         for event in walk.events
         for at in [event.time - walk.time[0]]
     )
+    near = '<th scope="col">nearest below</th>' if walk.near else ""
     log = f'<ol class="log">{lines}</ol>' if lines else "<p>No messages.</p>"
     return f"""<section class="walk" id="walk-{number}" aria-labelledby="name-{number}">
 <h2 id="name-{number}"{' class="hidden"' if alone else ""}>{name}</h2>
@@ -131,10 +133,15 @@ aria-label="{name} in 3D; drag to turn, arrow keys to step in time"></canvas>
 <p class="readout"></p>
 <div class="small">
 <figure><canvas class="soles" role="img" aria-label="Force on each taxel of both soles"></canvas>
-<figcaption>Soles from above; the cross is the CoP</figcaption></figure>
+<figcaption>Soles from above. Cross: CoP. <span class="convex">Green</span>: convex polygon.
+<span class="concave">Orange</span>: concave polygon</figcaption></figure>
 <figure><canvas class="forces" role="img" aria-label="Force on each sole over time"></canvas>
 <figcaption>Force on each sole: <span class="left">left</span>, <span class="right">right</span></figcaption></figure>
 </div>
+<table class="perceived"><caption class="hidden">What each sole perceives at this time</caption>
+<thead><tr><th scope="col">sole</th><th scope="col">force</th><th scope="col">taxels loaded</th>
+<th scope="col">CoP forward, left</th><th scope="col">moment about x, y</th><th scope="col">convex polygon</th>
+<th scope="col">concave polygon</th>{near}</tr></thead><tbody></tbody></table>
 <h3>Log</h3>
 <div class="scroll" tabindex="0" role="region" aria-label="Log of {name}">{log}</div>
 </section>"""
@@ -152,6 +159,7 @@ def _walk(walk: Walk) -> dict[str, Any]:
                 "cells": [layout.vertices[list(corners), :2].round(5).tolist() for corners in layout.corners],
                 "outline": layout.outline.round(5).tolist(),
                 **_forces(layout, walk.force[side], _LOADED * walk.weight),
+                **_near(walk.near.get(side)),
             }
             for side, layout in walk.layouts.items()
         },
@@ -166,15 +174,28 @@ def _walk(walk: Walk) -> dict[str, Any]:
 
 
 def _forces(layout: SoleLayout, force: NDArray[np.float32], least: float) -> dict[str, str]:
-    """Forces in 0.1 N as 16-bit numbers, the largest if unmeasured; in N where one does not fit; sum and CoP."""
+    """Forces in 0.1 N as 16-bit numbers, the largest if unmeasured; in N where one does not fit; sum, which taxels are
+    loaded, a bit each, and CoP of those.
+    """
     foot = FootRecording(layout.side, force.astype(float), layout)
-    cop = _packed(np.asarray(foot.center_of_pressure(least)), "<f4")
+    active = active_of(layout, force)
+    pressed = FootRecording(layout.side, np.where(active, force, 0.0).astype(float), layout)
+    cop = _packed(np.asarray(pressed.center_of_pressure(least)), "<f4")
     known = np.isfinite(force)
     rounded = np.round(force * 10.0)
     small = (~known | ((rounded >= 0.0) & (rounded < _NOT_MEASURED))).all()
     name, values, kind = ("decinewtons", rounded, "<u2") if small else ("force", force, "<f4")
     cells = _packed(np.where(known, values, _NOT_MEASURED if small else np.nan), kind)
-    return {name: cells, "total": _packed(foot.vertical_force, "<f4"), "cop": cop}
+    total = _packed(foot.vertical_force, "<f4")
+    return {name: cells, "total": total, "active": _packed(np.packbits(active), "u1"), "cop": cop}
+
+
+def _near(distance: NDArray[np.float32] | None) -> dict[str, str]:
+    """Distance in mm of what is nearest to each sole; NaN where nothing is near, or sensed."""
+    if distance is None:
+        return {}
+    nearest = np.where(np.isfinite(distance), distance, np.inf).min(axis=1)
+    return {"near": _packed(np.where(np.isfinite(nearest), 1e3 * nearest, np.nan), "<f4")}
 
 
 def _entity(entity: Entity) -> dict[str, Any]:

@@ -20,7 +20,7 @@ function flat(canvas) {
 }
 
 // Both soles from above, toes up: x of the sole is up, y to the left. `full`: force in N of the brightest cell.
-// `walk.under`, where it is there, draws on a sole below its CoP. Returns what finds the taxel at a point of the canvas.
+// `walk.under`, where it is there, draws on a sole at picture i below its CoP. Returns what finds the taxel at a point of the canvas.
 function drawSoles(walk, canvas, i, full) {
   const {pen, width, height} = flat(canvas);
   const all = SIDES.filter(s => walk.soles[s]), outlines = all.flatMap(s => walk.soles[s].outline);
@@ -40,7 +40,7 @@ function drawSoles(walk, canvas, i, full) {
     pen.strokeStyle = style('--soft');
     ring(sole.outline);
     pen.stroke();
-    if (walk.under) walk.under(side, pen, put, ring);
+    if (walk.under) walk.under(side, pen, put, ring, i);
     const cop = walk.cop(side, i);
     if (!cop) return;
     const [x, y] = put(cop);

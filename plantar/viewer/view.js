@@ -29,6 +29,8 @@ class Walk {
         : Float32Array.from(unpack(sole.decinewtons, Uint16Array), v => v === NOT_MEASURED ? NaN : v / 10);
       this.totals[side] = unpack(sole.total, Float32Array);
       sole.cop = unpack(sole.cop, Float32Array);
+      sole.active = unpack(sole.active, Uint8Array);
+      if (sole.near) sole.near = unpack(sole.near, Float32Array);
     }
   }
   // Force in N below which nearly all loaded readings are: one spike does not darken all others.
@@ -66,6 +68,71 @@ class Walk {
     const cop = this.soles[side].cop.subarray(2 * i, 2 * i + 2);
     return Number.isNaN(cop[0]) ? null : cop;
   }
+  // Cells of the loaded taxels of a sole at picture i.
+  loaded(side, i) {
+    const {cells, active} = this.soles[side];
+    return cells.filter((_, k) => { const bit = i * cells.length + k; return active[bit >> 3] & (128 >> (bit & 7)); });
+  }
+  under(side, pen, put, ring, i) {
+    const cells = this.loaded(side, i);
+    if (!cells.length) return;
+    pen.lineWidth = 2;
+    pen.strokeStyle = style('--concave');
+    pen.beginPath();
+    for (const [a, b] of rim(cells)) { pen.moveTo(...put(a)); pen.lineTo(...put(b)); }
+    pen.stroke();
+    pen.strokeStyle = style('--convex');
+    ring(hull(cells.flat()));
+    pen.stroke();
+    pen.lineWidth = 1;
+  }
+  // What a sole perceives at picture i, as the words of a row.
+  perceived(side, i) {
+    const sole = this.soles[side], cells = this.loaded(side, i), cop = this.cop(side, i), total = this.totals[side][i];
+    const cm2 = polygon => 1e4 * Math.abs(twice(polygon)) / 2;
+    const words = [side, force(total), `${cells.length} of ${sole.cells.length}`,
+      cop ? `${rounded(1e3 * cop[0])}, ${rounded(1e3 * cop[1])} mm` : 'none',
+      cop ? `${rounded(total * cop[1], 1)}, ${rounded(-total * cop[0], 1)} N m` : 'none',
+      `${rounded(cells.length ? cm2(hull(cells.flat())) : 0)} cm²`,
+      `${rounded(cells.reduce((sum, cell) => sum + cm2(cell), 0))} cm²`];
+    const sensed = SIDES.some(s => this.soles[s] && this.soles[s].near);
+    if (sensed) words.push(sole.near && !Number.isNaN(sole.near[i]) ? `${rounded(Math.max(sole.near[i], 0))} mm` : 'not sensed');
+    return words;
+  }
+}
+
+const force = total => Number.isNaN(total) ? 'not measured' : total.toFixed(0) + ' N';
+
+const rounded = (value, digits = 0) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/, '$1');
+
+// Twice the area of a polygon, positive where it goes round to the left.
+function twice(polygon) {
+  return polygon.reduce((sum, a, k) => { const b = polygon[(k + 1) % polygon.length]; return sum + a[0] * b[1] - a[1] * b[0]; }, 0);
+}
+
+// Convex hull of points: Andrew's monotone chain.
+function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]), sides = [];
+  for (const order of [sorted, [...sorted].reverse()]) {
+    const chain = [];
+    for (const p of order) {
+      while (chain.length > 1 && twice([chain.at(-2), chain.at(-1), p]) <= 1e-15) chain.pop();
+      chain.push(p);
+    }
+    sides.push(...chain.slice(0, -1));
+  }
+  return sides;
+}
+
+// Edges that only one of the cells has.
+function rim(cells) {
+  const edges = new Map();
+  for (const cell of cells)
+    cell.forEach((a, k) => {
+      const b = cell[(k + 1) % cell.length], name = [a.join(), b.join()].sort().join(' ');
+      edges.set(name, edges.has(name) ? null : [a, b]);
+    });
+  return [...edges.values()].filter(Boolean);
 }
 
 function meshOf(shape) {
@@ -309,8 +376,7 @@ const spaces = walks.map((walk, k) => {
 
 function said(walk) {
   const i = walk.index(time);
-  const load = total => Number.isNaN(total) ? 'not measured' : total.toFixed(0) + ' N';
-  return SIDES.filter(s => walk.totals[s]).map(s => `${s} ${load(walk.totals[s][i])}`).join(', ');
+  return SIDES.filter(s => walk.totals[s]).map(s => `${s} ${force(walk.totals[s][i])}`).join(', ');
 }
 
 function draw() {
@@ -322,6 +388,9 @@ function draw() {
     drawSoles(walk, section.querySelector('.soles'), i, full);
     drawForces(walk, section.querySelector('.forces'), time, end);
     section.querySelector('.readout').textContent = said(walk) + (time > walk.duration ? ' (ended)' : '');
+    const rows = SIDES.filter(s => walk.soles[s]).map(s => walk.perceived(s, i));
+    const names = [...section.querySelectorAll('.perceived thead th')].map(cell => cell.textContent);
+    section.querySelector('.perceived tbody').replaceChildren(...rows.map(words => tableRow(words, names)));
     let current = null;
     for (const item of section.querySelectorAll('.log li')) {
       item.classList.remove('now');
@@ -333,6 +402,19 @@ function draw() {
   $('time').value = String(time);
   $('time').setAttribute('aria-valuetext', time.toFixed(2) + ' seconds');
   document.body.dataset.time = time.toFixed(3);
+}
+
+function tableRow(words, names) {
+  const row = document.createElement('tr');
+  words.forEach((word, k) => {
+    const cell = document.createElement(k ? 'td' : 'th');
+    cell.textContent = word;
+    cell.dataset.of = names[k];
+    row.append(cell);
+  });
+  row.firstChild.scope = 'row';
+  row.firstChild.className = words[0];
+  return row;
 }
 
 function soon() {

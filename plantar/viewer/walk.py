@@ -42,6 +42,7 @@ _MOST_EVENTS = 10_000
 _MOST_SHAPES = 500_000  # shapes, points and triangles on a page
 _ROOTS = ("world", "map", "")
 _POSE = ("position", "rotation")
+_VALUES = {"skin": ("force",), "proximity": ("distance",)}  # by the first word of a topic
 _WIDTHS = {"position": 3, "rotation": 9, "com": 3}
 
 Fields = list[tuple[str, int]] | None
@@ -65,6 +66,8 @@ class Walk:
         poses: Each frame's position and quaternion (x, y, z, w), (n, 7), world in m.
         layouts: Soles, by side; frames "sole_left" and "sole_right".
         force: (n, k) in N on each sole's taxels, float32.
+        near: Distance (n, k) in m of what is before each taxel, likewise; NaN where it was not sensed, inf beyond the
+            range. Soles without proximity are left out.
         zmp: True zero moment point (n, 3) in m, NaN if unknown.
         polygon: True support polygon (n, 12, 3) in m, likewise.
         footsteps: Times in s, and footsteps planned from then on.
@@ -78,6 +81,7 @@ class Walk:
     shapes: tuple[Entity, ...]
     layouts: Mapping[Side, SoleLayout]
     force: Mapping[Side, NDArray[np.float32]]
+    near: Mapping[Side, NDArray[np.float32]]
     zmp: NDArray[np.float64]
     polygon: NDArray[np.float64]
     footsteps: tuple[tuple[float, tuple[Entity, ...]], ...]
@@ -111,6 +115,7 @@ def read_walk(path: str | os.PathLike[str]) -> Walk:
         shapes=tuple(drawn.world),
         layouts=layouts,
         force=shown.force,
+        near={side: distance for side, distance in shown.near.items() if not np.isnan(distance).all()},
         zmp=shown.zmp,
         polygon=shown.polygon,
         footsteps=tuple(drawn.footsteps),
@@ -225,6 +230,7 @@ class _Shown:
         self._layouts = layouts
         self._time = time
         self.force = {side: np.full((n, len(layout)), np.nan, np.float32) for side, layout in layouts.items()}
+        self.near = {side: np.full_like(force, np.nan) for side, force in self.force.items()}
         self.zmp = np.full((n, 3), np.nan)
         self.polygon = np.full((n, _CORNERS, 3), np.nan)
         self._poses = _sole_poses(n, layouts)
@@ -232,6 +238,7 @@ class _Shown:
         for side, skin in ((side, drawn.skin[side]) for side in layouts):
             reach = max(_HELD, 2.5 * (skin.last - skin.first) / skin.count)
             self._latest[f"/skin/{side}"] = Latest(time, self.force[side].__setitem__, reach)
+            self._latest[f"/proximity/{side}"] = Latest(time, partial(self._keep_near, side), _HELD)
         self._latest["/scene/balance"] = Latest(time, self._keep_balance)
         self._framed: FramePoses | None = None
         if {f"sole_{side}" for side in SIDES} <= set(drawn.frames):
@@ -245,7 +252,7 @@ class _Shown:
     def sinks(self) -> dict[str, Sink]:
         out: dict[str, Sink] = {}
         for topic, latest in self._latest.items():
-            wanted = ("force",) if topic.startswith("/skin") else ("com",) if topic == "/truth/body" else _POSE
+            wanted = ("com",) if topic == "/truth/body" else _VALUES.get(topic.split("/")[1], _POSE)
             out[topic] = partial(self._take_numbers, latest, wanted)
         out["/scene/balance"] = self._take_balance
         if self._framed is not None:
@@ -297,6 +304,10 @@ class _Shown:
                     self.zmp[rows] = shape.pose[:3]
                 elif entity.name == "support polygon" and len(shape.points) == _CORNERS:
                     self.polygon[rows] = shape.points
+
+    def _keep_near(self, side: Side, rows: slice, values: NDArray[np.float64]) -> None:
+        if len(values) == self.near[side].shape[1]:
+            self.near[side][rows] = values
 
     def _keep_sole(self, side: Side, rows: slice, values: NDArray[np.float64]) -> None:
         pose = self._poses[f"sole_{side}"]

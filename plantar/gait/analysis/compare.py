@@ -98,7 +98,7 @@ def unlike(a: Iterable[tuple[str, float]], b: Iterable[tuple[str, float]], one: 
     for pair in product(a, b):
         areas = [area for _, area in pair]
         if pair[0][0] != pair[1][0] or max(areas) > 1.5 * min(areas):
-            cells = [f"cells of {1e6 * area:.3g} mm2" if area else "no cells" for area in areas]
+            cells = [f"cells of {1e6 * area:.0f} mm2" if area else "no cells" for area in areas]
             first, second = (f"{kind} ({what})" for (kind, _), what in zip(pair, cells, strict=True))
             doubt = "differences may be of the sensors, peak pressures and areas above all"
             return [f"{one} is of {first}, {other} of {second}: {doubt}"]

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar import InputError, laid_over
+from plantar import InputError, Percept, Reading, laid_over
 from plantar.viewer.page import view_text, write_page
 
 from ...gait.analysis.browser import visit
@@ -94,6 +94,33 @@ def test_the_page_plays_steps_jumps_and_asks_for_nothing(page, tmp_path):
     assert 0.1 <= found["played"] < 2.0
     assert found["asked"] == []
     assert [line for line in seen.console if "GPU stall" not in line and "GL Driver" not in line] == []
+
+
+def test_what_a_sole_perceives_is_listed_as_its_percept_has_it(page, tmp_path):
+    script = (
+        READY
+        + """
+byId('time').value = '0.700';
+byId('time').dispatchEvent(new Event('input'));
+await drawn();
+const rows = document.querySelectorAll('.perceived tbody tr');
+return [...rows].map(row => [...row.children].map(cell => cell.textContent));
+"""
+    )
+    rows = visit(page, script, tmp_path, webgl=True).found
+    for row in rows:
+        layout = small_walk.soles()[row[0]]
+        percept = Percept(layout, Reading(0.7, small_walk.forces(0.7)[row[0]]))
+        assert 0 < percept.active.sum() < len(layout)
+        x, y = 1e3 * percept.position_cop_in_sole
+        moment = percept.wrench_in_sole[3:5]
+        assert row[1] == f"{percept.reading.force.sum():.0f} N"
+        assert row[2] == f"{percept.active.sum()} of {len(layout)}"
+        for text, values, off in ((row[3], (x, y), 0.6), (row[4], moment, 0.2)):
+            assert np.array(re.findall(r"-?[0-9.]+", text), dtype=float) == pytest.approx(values, abs=off)
+        assert row[5] == f"{1e4 * percept.support_area:.0f} cm²"
+        assert row[6] == f"{1e4 * percept.concave_outline_in_sole.area:.0f} cm²"
+    assert [len(row) for row in rows] == [7, 7]
 
 
 def test_one_scale_for_all_walks_ends_where_99_percent_of_the_loaded_readings_are_below(tmp_path, monkeypatch):
