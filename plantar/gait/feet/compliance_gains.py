@@ -25,6 +25,8 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     touch_speed: float = fixed(0.000824, "leg/beat")  # Speed at touchdown in m/s
     margin: float = share(1 / 3000, "leg", 0, 0.01)
     top_speed: float = fixed(0.124, "leg/beat")  # Largest speed downwards in m/s
+    # The same to ground that is not one plane: which part is met first is seen by few taxels, and changes
+    rough_speed: float = fixed(0.0247, "leg/beat")
     acceleration: float = share(0.408, "leg/beat^2", 0.1, 100)
     clearance: float = share(0.02, "leg", 0, 0.1)
     clearance_slope: ClassVar[float] = 0.2  # The same, for each metre that it still has to go

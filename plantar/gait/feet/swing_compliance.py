@@ -133,9 +133,10 @@ class SwingCompliance:
             wanted += self._haste * (planned - wanted)
             self._aim += self._haste * behind
             behind = distance - self._aim
-        self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
+        most = g.top_speed if view.even else g.rough_speed
+        self._speed = min(wanted, most, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
-        return self._moved(min(g.top_speed, max(rise, self._speed + behind / g.correction)), period)
+        return self._moved(min(most, max(rise, self._speed + behind / g.correction)), period)
 
     def _moved(self, wanted: float, period: float) -> float:
         """Descent in m in a tick at about a `wanted` speed in m/s."""

@@ -104,6 +104,20 @@ def test_a_foot_past_the_ground_that_it_sees_goes_down_faster() -> None:
     assert np.diff(speeds).min() > 0.0
 
 
+@pytest.mark.parametrize("even", [True, False])
+def test_ground_that_is_not_one_plane_is_come_down_to_slowly(even: bool) -> None:
+    """What few taxels see of a block's edge and the floor behind it jumps by the height of the block."""
+    gains = ComplianceGains()
+    compliance = swing(gains)
+    fastest = 0.0
+    for k in range(80):
+        jumps = 0.02 if k % 10 < 5 else 0.01
+        drop = compliance.descent(GroundView(jumps, jumps, None, even), 0.2, 0.0, 0.3, PERIOD)
+        fastest = max(fastest, drop / PERIOD)
+    assert (fastest <= gains.rough_speed + 1e-9) is not even
+    assert fastest > 0.5 * gains.rough_speed
+
+
 def test_a_load_is_held_while_the_body_moves_and_grows_gently() -> None:
     gains = ComplianceGains()
     compliance = swing(gains)
