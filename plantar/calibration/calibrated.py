@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.calibration.fit import SHARED_SPREAD, Fitted, ResponseFit
+from plantar.calibration.fit import CROSSTALK, CURVE, LOOPS, SHARED_SPREAD, Fitted, ResponseFit
 from plantar.calibration.take import Take
 from plantar.calibration.windows import Windows, windows_of
 from plantar.common.arguments import instance
@@ -134,11 +134,11 @@ def calibrate(takes: Sequence[Take], layout: SoleLayout, date: str | None = None
             offset=offset[side],
             covariance=fitted.covariance[side],
             reference=reference,
-            curve=fitted.shared[:2],
+            curve=fitted.shared[CURVE],
             curve_deviation=fitted.deviation[side],
-            hysteresis=fitted.shared[3:5],
+            hysteresis=fitted.shared[LOOPS],
             top=top[side],
-            crosstalk=float(fitted.shared[2]),
+            crosstalk=float(fitted.shared[CROSSTALK]),
             shared_error=fitted.shared_error,
             date=day,
             method=method,
@@ -230,11 +230,11 @@ def _unobserved(fitted: Fitted, layout: SoleLayout, takes: Sequence[Take]) -> tu
                 f"{ids}{more}; press them one by one"
             )
     seen = fitted.shared_error < _UNSEEN * SHARED_SPREAD
-    if not seen[0]:
+    if not seen[CURVE][0]:
         lines.append("the response's curve: loads hardly varied; press harder and more lightly")
-    if not seen[2]:
+    if not seen[CROSSTALK]:
         lines.append("crosstalk: no load lay on few taxels while its center of pressure was known")
-    if not seen[3:5].any():
+    if not seen[LOOPS].any():
         lines.append("hysteresis: loads rose and fell too little")
     if not any(take.kind == "zero" for take in takes):
         lines.append("offsets were taken while the soles were lifted; a zero take shows them longer")

@@ -24,6 +24,11 @@ Array = NDArray[np.float64]
 SHARED = ("curve", "curve_2", "crosstalk", "hysteresis", "creep")
 """Unknowns that all taxels share."""
 
+CURVE = slice(0, 2)
+CROSSTALK = 2
+LOOPS = slice(3, 5)
+"""Places of the curve's two terms, of crosstalk, and of hysteresis and creep among them."""
+
 SHARED_MEAN = np.array([0.0, 0.0, 0.05, 0.02, 0.03])
 """What they are taken for before anything is measured."""
 
@@ -129,7 +134,7 @@ class ResponseFit:
             known.gain = known.gain * np.exp(np.clip(change[:m], -_LARGEST_STEP, _LARGEST_STEP))
             known.deviation = known.deviation + change[m : 2 * m]
             known.shared = known.shared + change[2 * m :]
-            known.shared[2] = np.clip(known.shared[2], 0.0, 0.45)
+            known.shared[CROSSTALK] = np.clip(known.shared[CROSSTALK], 0.0, 0.45)
             if step >= _FREE:
                 variance = np.diag(covariance)
                 used = float((1.0 - variance / spread**2).sum())
@@ -201,9 +206,9 @@ class ResponseFit:
                 continue
             at = self._places[side]
             weight = self._rise[side] if row.axis is None else self._arms[side][row.axis]
-            weight = weight @ np.linalg.inv(np.eye(len(weight)) + shared[2] * self._leak[side])
-            level = (sole.above + np.tensordot(shared[3:5], sole.loops, 1)) * gain[at]
-            force = response(level, self._reference, shared[:2], deviation[at])
+            weight = weight @ np.linalg.inv(np.eye(len(weight)) + shared[CROSSTALK] * self._leak[side])
+            level = (sole.above + np.tensordot(shared[LOOPS], sole.loops, 1)) * gain[at]
+            force = response(level, self._reference, shared[CURVE], deviation[at])
             beyond = level / self._reference - 1.0
             bend = (shared[0] + deviation[at] + 2.0 * shared[1] * beyond) / self._reference
             total += force @ weight

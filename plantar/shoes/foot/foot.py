@@ -51,6 +51,7 @@ class Foot:
 
     @cached_property
     def _passing(self) -> Callable[[float], Any]:
+        # The plan asks for the same few heights again and again; each is a union of outlines.
         return cache(lambda height: tidy(self.outline_up_to(height).union(self.sole)))
 
 

@@ -29,8 +29,9 @@ _CONTACT_STEPS = 2.0  # physics steps that a contact takes to bring penetration 
 _CONES = {"elliptic": mujoco.mjtCone.mjCONE_ELLIPTIC, "pyramidal": mujoco.mjtCone.mjCONE_PYRAMIDAL}
 _USUAL = Contact()
 
-_LEG_CONTACT = "truth_leg_contact"
+_LEG_CONTACT = "truth_leg_contact"  # name of the sensor that reports a leg on the other
 _LEGS = tuple(contype for contype, _ in COLLIDES.values())
+
 DIVERGED = (
     int(mujoco.mjtWarning.mjWARN_BADQPOS),
     int(mujoco.mjtWarning.mjWARN_BADQVEL),
