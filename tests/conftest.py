@@ -10,6 +10,7 @@ import hashlib
 import re
 import signal
 import time
+import warnings
 from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -23,6 +24,7 @@ import pytest
 from hypothesis import settings
 
 from plantar import hex_layout, kernels
+from plantar.common.console.ending import one_line
 from plantar.plotting import save_figure
 
 # MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What tests start says so itself.
@@ -52,14 +54,21 @@ DRAW = os.environ.get("PLANTAR_TEST_DRAW", "0")
 def beyond_sample(items: list[pytest.Item]) -> list[pytest.Item]:
     """Cases that the draw leaves to the long tests: of a test marked `sample(5)` all but five.
 
-    `sample(1, each="robot")` draws one for each value of that argument. The draw is by the case's name: the same each
-    time, and one more case changes at most one of those drawn.
+    `sample(1, each="robot")` draws one for each value of that argument, `sample(8, of="file")` eight tests of a file
+    that are not long anyway. The draw is by the case's name: the same each time, and one more case changes at most one
+    of those drawn.
     """
     cases = defaultdict(list)
     for item in items:
-        if mark := item.get_closest_marker("sample"):
-            value = repr(item.callspec.params[mark.kwargs["each"]]) if "each" in mark.kwargs else ""
-            cases[item.nodeid.partition("[")[0], value, mark.args[0]].append(item)
+        mark = item.get_closest_marker("sample")
+        if mark is None:
+            continue
+        if mark.kwargs.get("of") == "file":
+            if item.get_closest_marker("long") is None:
+                cases[str(item.path), "", mark.args[0]].append(item)
+            continue
+        value = repr(item.callspec.params[mark.kwargs["each"]]) if "each" in mark.kwargs else ""
+        cases[item.nodeid.partition("[")[0], value, mark.args[0]].append(item)
     for (*_, count), found in cases.items():
         found.sort(key=lambda item: hashlib.sha256(f"{item.nodeid} {DRAW}".encode()).digest())
         del found[:count]
@@ -132,6 +141,47 @@ def pytest_configure(config: pytest.Config) -> None:
 def share(request):
     """Of what a test draws by itself: a quarter where the long tests are left out, else all."""
     return 0.25 if is_short(request.config) else 1.0
+
+
+@contextmanager
+def unheard() -> Iterator[None]:
+    """Both streams of this process go nowhere: native libraries print."""
+    kept = [os.dup(number) for number in (1, 2)]
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        for number in (1, 2):
+            os.dup2(nowhere, number)
+        yield
+    finally:
+        for number, stream in zip((1, 2), kept, strict=True):
+            os.dup2(stream, number)
+        for stream in (*kept, nowhere):
+            os.close(stream)
+
+
+def read_here(
+    function: str, path: Any, error: type[Exception], what: str, memory: float, seconds: float
+) -> dict[str, np.ndarray]:
+    """Stands for `confined`: reads a file in this process, without limits."""
+    module, _, name = function.partition(":")
+    try:
+        with unheard(), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            arrays = getattr(import_module(module), name)(Path(path).absolute())
+    except Exception as found:
+        reason = one_line(f"{type(found).__name__}: {one_line(found)}")[:160]
+        raise error(f"{path}: not {what} that can be read ({reason})") from None
+    return {key: np.asarray(array) for key, array in arrays.items()}
+
+
+@pytest.fixture(autouse=True)
+def _read_in_this_process(request, monkeypatch):
+    """Where the long tests are left out, libraries read files in this process, but where the mark `apart` stands.
+
+    Starting a process takes half a second with ezc3d or MuJoCo, and four with OpenCascade.
+    """
+    if is_short(request.config) and request.node.get_closest_marker("apart") is None:
+        monkeypatch.setattr("plantar.common.files.gate.confined", read_here)
 
 
 @pytest.fixture

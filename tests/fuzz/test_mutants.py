@@ -9,6 +9,8 @@ import pytest
 from .mutants import CASES, Failure, Target, read_all, tried
 from .targets import TARGETS
 
+pytestmark = pytest.mark.apart
+
 _KEPT = sorted(CASES.glob("*-*")) if CASES.exists() else []
 
 

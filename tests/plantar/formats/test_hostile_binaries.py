@@ -17,6 +17,8 @@ from plantar.formats import ReadOptions, formats, read_recording
 from plantar.formats.footprint_image import read_footprints
 from plantar.recordings.recording import read_mcap
 
+pytestmark = pytest.mark.apart
+
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes and devices as on Linux")
 
 # --- what is no file ------------------------------------------------------------------------------------------------

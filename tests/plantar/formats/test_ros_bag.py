@@ -88,7 +88,6 @@ def test_what_is_no_bag(tmp_path):
 
 @pytest.mark.parametrize("trials", [3, pytest.param(40, marks=pytest.mark.long)])
 def test_a_damaged_bag_is_one_line(tmp_path, trials):
-    """Each is read in a process of its own, which takes half a second to start."""
     write_bag(tmp_path / "whole", {"/left/force": np.ones((30, 8))})
     (file,) = (tmp_path / "whole").glob("*.db3")
     refusals(file, trials, read=lambda _: read_recording(tmp_path / "whole"))

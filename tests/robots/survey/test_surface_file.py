@@ -78,6 +78,7 @@ def test_all_meshes_of_a_model_are_read_in_one_process(tmp_path, folder, monkeyp
     assert [np.ptp(read(found[path])[..., 0]) for path in (paths[0], paths[2])] == pytest.approx([0.1, 0.3])
 
 
+@pytest.mark.apart
 def test_meshes_that_end_their_reader_are_refused_in_the_models_name(tmp_path, folder, monkeypatch):
     path = tmp_path / "foot.dae"
     BOX.export(path)

@@ -15,6 +15,8 @@ from plantar.common.files.model_limits import check_model_size
 from plantar.common.files.xml_file import parse_xml
 from plantar.errors import PlantarError, RobotError
 
+pytestmark = pytest.mark.apart
+
 ROOT = Path(__file__).parents[4]
 
 
