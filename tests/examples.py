@@ -1,4 +1,4 @@
-"""How many examples a property is tried on, where it needs more or fewer than others."""
+"""How much a test draws that needs more or less than others: less with a profile of less, as the short tests have."""
 
 from typing import Any
 
@@ -7,6 +7,11 @@ from hypothesis import settings
 _USUAL = 40  # of the profile "same", for which tests state their numbers
 
 
+def scaled(count: int) -> int:
+    """Of `count` draws as many as the present profile of hypothesis makes of its usual ones."""
+    return max(1, count * settings().max_examples // _USUAL)
+
+
 def examples(count: int, **others: Any) -> settings:
-    """Settings with `count` examples; fewer or more with a profile of fewer or more, as the short tests have."""
-    return settings(max_examples=max(1, count * settings().max_examples // _USUAL), **others)
+    """Settings of hypothesis with `count` examples, scaled."""
+    return settings(max_examples=scaled(count), **others)

@@ -114,7 +114,7 @@ def test_a_hostile_file_is_refused_in_one_line_at_once(name, forks, tmp_path):
     refused(forks, tmp_path, *FAMILIES[name])
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(1)
 @pytest.mark.parametrize("name", ANY)
 def test_what_may_stand_behind_any_name_is_refused(name, forks, tmp_path):
     refused(forks, tmp_path, *ANY[name])

@@ -72,8 +72,7 @@ ANALYSES = {
 """Pages, and what makes them of two recordings."""
 
 
-@pytest.mark.sample(1)
-@pytest.mark.parametrize("page", ANALYSES)
+@pytest.mark.parametrize("page", ["report.html", *(pytest.param(p, marks=pytest.mark.long) for p in [*ANALYSES][1:])])
 def test_recordings_are_analysed_compared_and_studied(page, environment, tmp_path):
     (tmp_path / "study").mkdir()
     for name in ("a.asc", "b.asc"):
@@ -155,7 +154,7 @@ COMMANDS = (
 )
 
 
-@pytest.mark.sample(8)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_command_is_done_or_ends_in_the_line_that_installs_what_is_missing(command, environment, walk):
     done = subprocess.run(

@@ -80,7 +80,8 @@ def test_a_make_target_exists(command):
     assert f"{command} " in listed
 
 
-@pytest.mark.parametrize("number", range(len(blocks(README, "python"))))
+# The first walks, records, analyses and views, as the commands do in test_commands.py and viewer/.
+@pytest.mark.parametrize("number", [pytest.param(0, marks=pytest.mark.long), *range(1, len(blocks(README, "python")))])
 def test_an_example_of_the_readme_runs(user, number):
     done = run([sys.executable, "-W", "error", "-c", blocks(README, "python")[number]], user)
     assert done.returncode == 0, done.stderr

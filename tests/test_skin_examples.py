@@ -4,6 +4,10 @@ import re
 import subprocess
 import sys
 
+import pytest
+
+pytestmark = pytest.mark.sample(2, of="file")
+
 
 def run(name, repository):
     """What an example prints."""

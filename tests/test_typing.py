@@ -130,6 +130,7 @@ def expected(script: str) -> dict[int, str]:
     return {i: m[1] for i, line in enumerate(script.splitlines(), 1) if (m := re.search(r"  # ([a-z-]+)$", line))}
 
 
+@pytest.mark.long  # 13 s of the processor; `make lint` checks the package itself, as strictly
 def test_a_right_script_passes_and_every_wrong_line_is_found(editable, tmp_path):
     found = checked(editable, tmp_path, right=SCRIPT, wrong=WRONG)
     assert found == {"right": {}, "wrong": expected(WRONG)}

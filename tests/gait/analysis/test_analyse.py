@@ -108,7 +108,7 @@ def test_a_recording_without_steps_still_gives_a_report(tmp_path):
     assert "no complete step" in (tmp_path / "out" / "report.html").read_text()
 
 
-def test_random_corruption_never_breaks_the_analysis(tmp_path, run):
+def test_random_corruption_never_breaks_the_analysis(tmp_path, run, share):
     bad = tmp_path / "bad.mcap"
     bad.write_bytes(run[0].read_bytes())
 
@@ -117,7 +117,8 @@ def test_random_corruption_never_breaks_the_analysis(tmp_path, run):
         feet = {side: analyse_foot(recording, side) for side in recording.feet}
         json.dumps(metrics_of(recording, feet), allow_nan=False)
 
-    assert len(refusals(bad, 25, read)) < 15
+    trials = round(25 * share)
+    assert len(refusals(bad, trials, read)) <= 0.6 * trials
 
 
 def test_command_prints_one_json_object(tmp_path, run):
@@ -128,27 +129,28 @@ def test_command_prints_one_json_object(tmp_path, run):
     assert set(result["feet"]["left"]["events"][0]) == {"heel_strike_s", "toe_off_s"}
 
 
-def plantar(*arguments: str) -> subprocess.CompletedProcess[str]:
-    code = "import sys; from plantar import cli; sys.argv[0] = 'plantar'; cli.main()"
-    return subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=False)
-
-
-def test_bad_input_is_one_line_and_exit_code_2(tmp_path):
-    (tmp_path / "bad.asc").write_bytes(b"\x00" * 100)
-    for arguments, text in (
-        (["analyze", str(tmp_path / "bad.asc")], "known: mcap"),
-        (["analyze", str(tmp_path / "none.asc")], "cannot be read"),
-        (["analyze", str(tmp_path / "bad.asc"), "--format", "x"], "allowed: mcap, pedar"),
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["analyze", "bad.asc", "-o", "out"], "known: mcap"),
+        (["analyze", "none.asc", "-o", "out"], "cannot be read"),
+        (["analyze", "bad.asc", "-o", "out", "--format", "x"], "allowed: mcap, pedar"),
         (["list", "feet"], "allowed: robots, scenes, papers, formats, sources, settings"),
-    ):
-        extra = ["-o", str(tmp_path / "out")] if arguments[0] == "analyze" else []
-        done = plantar(*arguments, *extra)
-        assert done.returncode == 2
-        assert done.stdout == ""
-        assert done.stderr.startswith("plantar: ")
-        assert done.stderr.count("\n") == 1
-        assert text in done.stderr
-    assert not (tmp_path / "out").exists()
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(tmp_path, monkeypatch, capfd, arguments, text):
+    (tmp_path / "bad.asc").write_bytes(b"\x00" * 100)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["plantar", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    stdout, stderr = capfd.readouterr()
+    assert ended.value.code == 2
+    assert stdout == ""
+    assert stderr.startswith("plantar: ")
+    assert stderr.count("\n") == 1
+    assert text in stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["bad.asc"]
 
 
 def test_list_names_what_there_is():
@@ -158,10 +160,8 @@ def test_list_names_what_there_is():
         assert name in [entry["name"] for entry in json.loads(done.stdout)[what]]
 
 
-@pytest.mark.sample(1)
-@pytest.mark.parametrize("arguments", [["analyze", "--help"], ["list", "robots"], ["analyze", "RUN", "-o", "OUT"]])
-def test_analysis_loads_neither_mujoco_nor_cadquery(tmp_path, run, arguments):
-    words = {"RUN": str(run[0]), "OUT": str(tmp_path / "out")}
+def test_analysis_loads_neither_mujoco_nor_cadquery(tmp_path, run):
+    """What help and lists load is asked in `test_startup.py`."""
     code = (
         "import atexit, sys, cli\n"
         "heavy = ('mujoco', 'cadquery', 'OCP', 'trimesh', 'mink')\n"
@@ -169,7 +169,7 @@ def test_analysis_loads_neither_mujoco_nor_cadquery(tmp_path, run, arguments):
         "sys.argv[0] = 'plantar'\n"
         "cli.main()\n"
     )
-    command = [sys.executable, "-c", code, *(words.get(a, a) for a in arguments)]
+    command = [sys.executable, "-c", code, "analyze", str(run[0]), "-o", str(tmp_path / "out")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[-1] == "LOADED []"

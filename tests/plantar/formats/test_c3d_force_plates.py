@@ -53,6 +53,7 @@ def steps_of(walk: Analysis) -> list[Step]:
     return sorted((s for gait in walk.feet.values() for s in gait.steps), key=lambda s: s.heel_strike_s)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_two_plates_are_two_feet(tmp_path, seed):
     path = tmp_path / "walk.c3d"

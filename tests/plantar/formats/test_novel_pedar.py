@@ -330,7 +330,7 @@ def test_damage(tmp_path, pressures):
         assert recording.rate_hz == pytest.approx(100.0)
 
     export(tmp_path / "walk.asc", *pressures)
-    assert survive_corruption(tmp_path / "walk.asc", trials=80, header=2500, check=check) > 20
+    assert survive_corruption(tmp_path / "walk.asc", trials=80, header=2500, check=check) > 20 / 80
 
 
 def test_real_recording(real_data):

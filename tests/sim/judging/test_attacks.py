@@ -20,6 +20,8 @@ from plantar.sim.run.scene import load_scene
 
 from ..rates import check_rate, drawn_seeds
 
+pytestmark = pytest.mark.sample(8, of="file")
+
 SHORT = ["steps=4", "settle=0.3"]
 BELIEVES = [*SHORT, "identify=false"]  # what the opening stand shows would be made up for
 

@@ -166,6 +166,7 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(tmp_path):
     assert rows(tmp_path)[: len(before)] == before
 
 
+@pytest.mark.long  # what of it is of workers alone is asked in common/workers/test_local_workers.py
 def test_a_killed_worker_costs_its_run_and_a_killed_sweep_takes_its_workers_along(tmp_path):
     sweep = start(*SWEEP, "--workers=1", "-o", tmp_path)
     until(lambda: rows(tmp_path), "no rows")

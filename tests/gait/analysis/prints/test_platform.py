@@ -122,7 +122,7 @@ def test_a_single_footprint_tells_its_side_by_its_shape(first, reverse):
     assert len(data["feet"][0]["cells"]) < 400  # not the whole platform
 
 
-@pytest.mark.sample(2, each="width")
+@pytest.mark.sample(1, each="width")
 @pytest.mark.parametrize("first", ["left", "right"])
 @pytest.mark.parametrize("options", [{}, {"reverse": True}, {"across": True}, {"heading": 20.0}])
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ def design_of(levels: int, within: bool) -> Design:
     return Design(who, level, np.zeros((len(level), 0)), within)
 
 
-@pytest.mark.sample(1)
+@pytest.mark.long
 @pytest.mark.parametrize("within", [True, False])
 @pytest.mark.parametrize("levels", [2, 4])
 def test_one_family_over_all_pairs_errs_in_5_of_100(levels, within):

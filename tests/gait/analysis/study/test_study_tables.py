@@ -231,6 +231,7 @@ def test_a_study_of_two_factors_finds_what_is_planted_where_it_is(planted, tmp_p
     assert "Reliability" in (out / "study.html").read_text()
 
 
+@pytest.mark.long
 def test_processes_measure_what_one_does(planted, tmp_path):
     folder, table = planted
     one, two = (
