@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -13,7 +14,7 @@ from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.leg_momentum import LegMomentum
-from plantar.gait.plan.phases import PhaseKind, Timing
+from plantar.gait.plan.phases import Phase, PhaseKind, Timing
 from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import rotation_from_angles
@@ -150,6 +151,15 @@ def plan_reach(
     return found.result()
 
 
+class _Held(NamedTuple):
+    """A standing foot: sole origin (3,) in m, rotation (3, 3), VRP (2,) and the point (3,) on the ground under it."""
+
+    position: Array
+    rotation: Array
+    vrp: Array
+    point: Array
+
+
 class _Pass:
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
         self.legs = legs
@@ -164,6 +174,8 @@ class _Pass:
         self.spare = self.probe.spare(legs, SIDES)
         self.roll = 0.0
         self.seen: list[tuple[Array, ...]] = []
+        self.held: dict[Footstep, _Held] = {}
+        self.swings: dict[int, SwingTrajectory] = {}
         self.feet = dict(walked.feet)
         self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
 
@@ -185,17 +197,18 @@ class _Pass:
         reference = self.plan.at(time).plus(shift)
         for foot in walked.steps[: phase.step]:
             feet[foot.side] = foot
-        positions = {s: feet[s].position for s in SIDES}
-        rotations = {s: feet[s].rotation_sole_to_world for s in SIDES}
+        held = {s: self._held(feet[s]) for s in SIDES}
+        positions = {s: held[s].position for s in SIDES}
+        rotations = {s: held[s].rotation for s in SIDES}
         if phase.kind == PhaseKind.SINGLE_SUPPORT and phase.swing is not None:
             share = {s: 0.0 if s == phase.swing else 1.0 for s in SIDES}
-            path = self._swing(feet[phase.swing], walked.steps[phase.step], phase.end - phase.start)
+            path = self._swing(phase, feet[phase.swing])
             positions[phase.swing], yaw = path.at(time - phase.start)
             if walked.approach_height > 0.0:  # the path goes on below level ground, which stops the foot
                 positions[phase.swing][2] = max(positions[phase.swing][2], walked.steps[phase.step].z)
             rotations[phase.swing] = rotation_from_angles(yaw)
         else:
-            share = _shares(reference.vrp, feet, self.middles)
+            share = _shares(reference.vrp, held["left"].vrp, held["right"].vrp)
         com = np.array([*reference.com, self.ground + walked.com_height])
         middle = 0.5 * (positions["left"] + positions["right"])  # of where the feet are: steps aside move it
         torso = rotation_from_angles(0.0, roll=-walked.lean * float(reference.com[1] - middle[1]))
@@ -211,7 +224,7 @@ class _Pass:
             self.missed = max(self.missed, (1.0 if lands else _SWINGING) * self.probe.off(s, positions[s]))
         self.missed = max(self.missed, self.probe.com_off(com))
         self.spare = np.minimum(self.spare, self.probe.spare(legs, carrying))
-        points = {s: np.array([*vrp_of_step(feet[s], self.middles[s]), feet[s].z]) for s in SIDES}
+        points = {s: held[s].point for s in SIDES}
         alone = carrying if len(carrying) == 1 else []
         for s in alone:
             points[s] = np.array([*reference.vrp, feet[s].z])
@@ -223,13 +236,24 @@ class _Pass:
         lone = np.repeat([float(alone == [s]) for s in SIDES], len(self.spare))  # 1 for joints that carry alone
         self.seen.append((legs.configuration, lone, self.probe.axes(), legs.torques.copy(), given))
 
-    def _swing(self, start: Footstep, target: Footstep, duration: float) -> SwingTrajectory:
-        walked = self.walked
-        return SwingTrajectory(
-            *(start.position, target.position, start.yaw, target.yaw, walked.swing_height, duration),
-            approach_height=walked.approach_height,
-            approach_speed=walked.approach_speed,
-        )
+    def _held(self, foot: Footstep) -> _Held:
+        """Where a standing foot is: computed once a step."""
+        if foot not in self.held:
+            vrp = vrp_of_step(foot, self.middles[foot.side])
+            self.held[foot] = _Held(foot.position, foot.rotation_sole_to_world, vrp, np.array([*vrp, foot.z]))
+        return self.held[foot]
+
+    def _swing(self, phase: Phase, start: Footstep) -> SwingTrajectory:
+        if phase.step not in self.swings:
+            walked = self.walked
+            target = walked.steps[phase.step]
+            duration = phase.end - phase.start
+            self.swings[phase.step] = SwingTrajectory(
+                *(start.position, target.position, start.yaw, target.yaw, walked.swing_height, duration),
+                approach_height=walked.approach_height,
+                approach_speed=walked.approach_speed,
+            )
+        return self.swings[phase.step]
 
     def broken_off(self) -> PlanReach:
         never = np.full(len(self.spare), math.inf)
@@ -270,8 +294,20 @@ class _Pass:
         )
 
 
-def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Array]) -> dict[Side, float]:
-    left, right = (vrp_of_step(feet[s], middles[s]) for s in SIDES)
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _square_to(axis: Sequence[float], start: Sequence[float], end: Sequence[float]) -> tuple[float, float, float]:
+    """The part of the way from `start` to `end` that is square to a unit vector `axis`."""
+    x = end[0] - start[0]
+    y = end[1] - start[1]
+    z = end[2] - start[2]
+    along = _dot((x, y, z), axis)
+    return x - along * axis[0], y - along * axis[1], z - along * axis[2]
+
+
+def _shares(vrp: Array, left: Array, right: Array) -> dict[Side, float]:
     along = left - right
     part = float(np.clip((vrp - right) @ along / max(float(along @ along), 1e-12), 0.0, 1.0))
     return {"left": part, "right": 1.0 - part}
@@ -304,18 +340,16 @@ class _Probe:
         """Least bend of a knee in rad, from thigh to shank about the torso's y axis."""
         self._data.qpos[:] = legs.configuration
         mujoco.mj_kinematics(self._model, self._data)
-        across = self._data.xmat[self._torso].reshape(3, 3)[:, 1]
+        across = self._data.xmat[self._torso, 1::3].tolist()
+        anchors = self._data.xanchor.tolist()
+        axes = self._data.xaxis.tolist()
         bends = []
-        for hip, knee, ankle in self._pitch:
-            thigh = self._data.xanchor[knee] - self._data.xanchor[hip]
-            shank = self._data.xanchor[ankle] - self._data.xanchor[knee]
-            axis = self._data.xaxis[knee] * math.copysign(1.0, float(self._data.xaxis[knee] @ across))
-            thigh = thigh - (thigh @ axis) * axis
-            shank = shank - (shank @ axis) * axis
-            a, b, c = thigh.tolist()
-            d, e, f = shank.tolist()
-            around = np.array([b * f - c * e, c * d - a * f, a * e - b * d])  # np.cross takes ten times as long
-            bends.append(math.atan2(float(around @ axis), float(thigh @ shank)))
+        for hip, knee, ankle in self._pitch:  # in plain numbers: numpy takes three times as long for vectors of three
+            axis = axes[knee] if _dot(axes[knee], across) >= 0.0 else [-x for x in axes[knee]]
+            a, b, c = _square_to(axis, anchors[hip], anchors[knee])
+            d, e, f = _square_to(axis, anchors[knee], anchors[ankle])
+            around = [b * f - c * e, c * d - a * f, a * e - b * d]
+            bends.append(math.atan2(_dot(around, axis), a * d + b * e + c * f))
         return min(bends, default=math.pi)
 
     def off(self, side: Side, position: Array) -> float:
