@@ -12,6 +12,7 @@ Doors, each documented by `help(plantar.NAME)`; what a door needs is loaded at i
     run(scene, seed)             simulate it, judge it by the true contact forces, and record it
     mujoco                       the same skin for any MuJoCo model
     calibrate(takes, layout)     counts of soles into newtons, with the uncertainty of each gain
+    shoes.build_shoe(foot)       a printable shoe with taxels for a robot's foot, from its mesh or model
     live.open_live(source)       readings as they come, from a serial port, the network, a file or a program
 
 What a sole measures, and what follows from it:
@@ -46,7 +47,7 @@ from typing import TYPE_CHECKING
 from plantar.common.version import VERSION as __version__
 
 if TYPE_CHECKING:
-    from plantar import batch, live, mujoco
+    from plantar import batch, live, mujoco, shoes
     from plantar.calibration.calibrated import calibrate
     from plantar.errors import (
         DependencyError,
@@ -128,6 +129,7 @@ __all__ = [
     "read",
     "read_layout",
     "run",
+    "shoes",
     "sole",
     "view",
     "walking_tick",
@@ -169,6 +171,7 @@ _PLACES = {
     "batch": "",
     "live": "",
     "mujoco": "",
+    "shoes": "",
     "polygon": "geometry",
 }
 

@@ -110,3 +110,15 @@ def test_the_checks_of_this_file_find_what_they_look_for(tmp_path):
     )
     assert list(defined_names(path)) == ["AA", "BB", "CC", "E", "f"]
     assert undocumented_constants(path) == ["CC"]
+
+
+def test_what_a_door_returns_is_shown_in_one_short_line():
+    import plantar
+
+    walker = plantar.load_controller("h1")
+    reading = plantar.Reading(0.5, [1.0, float("nan")], proximity=[0.1, 0.2])
+    box = plantar.shoes.foot_from_dimensions("box", length=0.25, width=0.1)
+    shown = [repr(v) for v in (walker, walker.robot, plantar.load_scene("flat"), reading, box)]
+    assert all(len(text) < 120 and "\n" not in text for text in shown)
+    assert shown[3] == "Reading(0.500 s: 2 taxels, 1.0 N, with proximity)"
+    assert shown[4] == "Foot('box': sole 250 x 100 mm)"

@@ -50,7 +50,7 @@ _SOLES = ("taxels", "force_torque", "torques")
 _NO_TAXELS: Mapping[str, Any] = {"footholds": "off", "pfc": False, "conform": False, "feasibility": "off"}
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class RobotController:
     """A walking controller and the legs that follow it. Made by `load_controller`.
 
@@ -79,6 +79,10 @@ class RobotController:
     velocities: VelocityCommand = field(repr=False)
     soles: SoleSource | None = field(default=None, repr=False)
     began: bool = field(default=False, init=False)
+
+    def __repr__(self) -> str:
+        joints = len(self.joints)
+        return f"RobotController({self.robot.name!r}: {joints} joints, {1e3 * self.period:g} ms, {self.end:.1f} s long)"
 
     @property
     def bring_up(self) -> BringUp | None:

@@ -60,7 +60,7 @@ class Arms:
     roots: Mapping[Side, str]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Robot:
     """A robot as its TOML describes it.
 
@@ -136,6 +136,9 @@ class Robot:
     controller: Mapping[str, Mapping[str, Any]]
     path: Path
     arms: Arms | None = None
+
+    def __repr__(self) -> str:
+        return f"Robot({self.name!r}: {self.description})"
 
     def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
         """A sole's bounding rectangle: center (x, y), half size (x, y), sole frame, in m."""

@@ -20,7 +20,7 @@ _FORCE = "reading field 'force'"
 
 
 @constructed_by_kernel
-@dataclass(frozen=True, eq=False, init=False)
+@dataclass(frozen=True, eq=False, init=False, repr=False)
 class Reading(ReadingFields):
     """Measurements of a skin's n taxels at one time, read-only: of one sole, or of a `BodySkin` in its order.
 
@@ -59,6 +59,11 @@ class Reading(ReadingFields):
         temperature: NDArray[Any] | Sequence[float] | None = None,
         acceleration: NDArray[Any] | Sequence[Sequence[float]] | None = None,
     ) -> None: ...
+
+    def __repr__(self) -> str:
+        others = ("proximity", "temperature", "acceleration")
+        more = "".join(f", with {name}" for name in others if getattr(self, name) is not None)
+        return f"Reading({self.time:.3f} s: {len(self.force)} taxels, {np.nansum(self.force):.1f} N{more})"
 
     def _checked(
         self, time: object, force: object, proximity: object, temperature: object, acceleration: object

@@ -82,7 +82,7 @@ class Shoe:
         return cadquery.Workplane("XY").newObject([shape])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ShoeBuild:
     """Shoes of one foot.
 
@@ -107,6 +107,10 @@ class ShoeBuild:
     kind: Literal["shoe", "insole"] = "shoe"
     touching: Touching | None = None
     cop: CopBudget | None = None
+
+    def __repr__(self) -> str:
+        sides = " and ".join(shoe.side for shoe in self.shoes)
+        return f"ShoeBuild({self.foot.name!r}: {self.kind}, {sides}, {len(self.fit.cells)} taxels a sole)"
 
 
 def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from plantar.shoes.units import MM_PER_M, to_mm
 FOOT_LENGTHS = (60.0, 450.0)  # lengths in mm that a robot's foot may have
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Foot:
     """Left foot of a robot in mm: x forward, y left, z up, sole plane z = 0, origin below the ankle.
 
@@ -44,6 +44,10 @@ class Foot:
     mass: float | None = None
     links: NDArray[np.float64] | None = None
     poses: Mapping[Side, SourcePose] = field(default_factory=dict, hash=False)
+
+    def __repr__(self) -> str:
+        x, y, far_x, far_y = self.sole.bounds
+        return f"Foot({self.name!r}: sole {far_x - x:.0f} x {far_y - y:.0f} mm)"
 
     def passing(self, height: float) -> Any:
         """Outline of what passes a height in mm while the shoe is pushed on."""

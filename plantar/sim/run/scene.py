@@ -102,7 +102,7 @@ _ALIASES: Mapping[str, str] = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scene:
     """A scene.
 
@@ -126,6 +126,9 @@ class Scene:
     guide: GuideSettings = field(default_factory=GuideSettings)
     sole_contact: Contact = field(default_factory=Contact)
     outcome: Mapping[str, Criterion] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"Scene({self.name!r} with {self.robot}: {self.description})"
 
     @property
     def proximity_range(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -232,7 +232,8 @@ class Sweep(Plan):
                 origin[full] = f"grid '{name}'"
             if scene.robot not in files:
                 files[scene.robot] = str(robot_file_of(scene).resolve())
-            key = repr(replace(scene, robot=files[scene.robot]))
+            whole = replace(scene, robot=files[scene.robot])
+            key = repr([getattr(whole, entry.name) for entry in fields(whole)])
             text = " ".join(point)
             if key in seen:
                 raise InputError(f"grid points '{seen[key]}' and '{text}' are the same run; leave one out")
