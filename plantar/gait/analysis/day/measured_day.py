@@ -108,7 +108,7 @@ def measure_day(
         raise InputError(f"--day is for insoles; the recording is of kind {recording.kind}")
     lasts = float(recording.time[-1] - recording.time[0])
     if lasts < LEAST:
-        raise InputError(f"--day takes {LEAST / 60:g} minutes or more; the recording lasts {lasts / 60:.3g}")
+        raise InputError(f"--day takes {LEAST / 60:g} minutes or more; the recording lasts {lasts / 60:.3g} minutes")
     notes = list(recording.warnings)
     plain = seconds_of_day(recording, weight_of(mass_kg), {}, 0)
     bouts = bouts_of(plain, len(recording.feet))

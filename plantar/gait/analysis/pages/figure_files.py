@@ -46,7 +46,7 @@ def draw_figures(
         (
             "pressure",
             figure_pressure(recording, feet),
-            "Maximum pressure picture of each foot and CoP path of each step",
+            "Maximum pressure picture of each foot and CoP path of each step; grey cells were never loaded",
         ),
         ("regions", figure_regions(recording, feet), "Regions of each foot, its axis, and the thirds of its print"),
         ("force", figure_force(recording, feet), "Vertical force of each foot over time with its events"),
