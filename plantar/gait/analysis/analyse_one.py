@@ -13,6 +13,7 @@ from plantar.formats.given import recording_of
 from plantar.formats.nominal_insole import named_or_read_layout
 from plantar.formats.plausibility import refuse_small
 from plantar.formats.stated_events import read_events
+from plantar.gait.analysis.earlier_output import earlier_output, remove_earlier
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.parameters import analyse_feet
@@ -22,12 +23,6 @@ from plantar.gait.analysis.steps.baseline import without_baselines
 from plantar.gait.analysis.steps.gaps import without_gaps
 from plantar.gait.analysis.subject import Subject
 from plantar.layouts.layout import SoleLayout
-
-_FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench", "summary", "footprint")
-PRODUCTS = {"metrics.json", "steps.csv", "regions.csv", "footprints.csv", "report.html", "summary.html"} | {
-    f"{name}{suffix}" for name in _FIGURES for suffix in (".png", ".svg")
-}
-"""Files that an analysis writes into its folder, where the recording allows them."""
 
 Progress = Callable[[float, str], None]
 """Called with a fraction 0..1 and what is being done."""
@@ -100,8 +95,9 @@ def analyse_recording(
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     if also is not None and image:
         raise InputError(f"--export is for recordings; {path} is a footprint image")
-    again = (Path(out) / "metrics.json").is_file()
-    with output_folder(out, (path, layout, (choices or AnalysisOptions()).events_file)) as folder:
+    earlier = earlier_output(out)
+    inputs = (path, layout, (choices or AnalysisOptions()).events_file)
+    with output_folder(out, inputs) as folder:
         if image:
             from plantar.gait.analysis.pages.footprint_report import analyse_image
 
@@ -113,16 +109,10 @@ def analyse_recording(
             if also is not None:
                 also(analysis, folder)
         names = sorted(p.name for p in folder.iterdir())
-    if again:
-        _remove_earlier(Path(out), {*names, Path(path).name})
+    written = [str(Path(out) / name) for name in names]
+    remove_earlier(earlier, (*written, *inputs))
     report(1.0, "done")
-    return {**metrics, "files": [str(Path(out) / name) for name in names]}
-
-
-def _remove_earlier(folder: Path, names: set[str]) -> None:
-    """Remove what an earlier analysis wrote into a folder, but for `names`: it may be of another person."""
-    for name in sorted(PRODUCTS - names):
-        (folder / name).unlink(missing_ok=True)
+    return {**metrics, "files": written}
 
 
 def with_layout(options: ReadOptions | None, layout: SoleLayout | str | os.PathLike[str] | None) -> ReadOptions:

@@ -16,6 +16,7 @@ from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
+from plantar.gait.analysis.earlier_output import earlier_output, remove_earlier
 from plantar.gait.analysis.measures import COMPARED, MEASURES
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures
@@ -56,6 +57,7 @@ def compare_recordings(
         if named_format(path, format).read is None:
             raise InputError(f"{path} is a footprint image; --compare takes two recordings over time")
     analyses: dict[str, Analysis] = {}
+    earlier = earlier_output(out)
     with output_folder(out, (a, b, layout)) as folder:
         for i, (key, path) in enumerate((("a", a), ("b", b))):
             report(0.4 * i, f"reading {key}")
@@ -67,9 +69,11 @@ def compare_recordings(
                 "one recording is calibrated and the other is of raw counts: their values cannot be compared"
             )
         metrics = _write_comparison(analyses, folder, (Path(a).name, Path(b).name), figures)
-        written = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+        names = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+    written = [str(Path(out) / name) for name in names]
+    remove_earlier(earlier, (*written, a, b, layout))
     report(1.0, "done")
-    return {**metrics, "files": [str(Path(out) / name) for name in written]}
+    return {**metrics, "files": written}
 
 
 def _write_comparison(

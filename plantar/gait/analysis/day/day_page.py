@@ -14,6 +14,7 @@ from plantar.common.table_writer import csv_text
 from plantar.common.version import VERSION
 from plantar.gait.analysis.day.bouts import ACTIVITIES
 from plantar.gait.analysis.day.measured_day import Day, hours_and_minutes
+from plantar.gait.analysis.earlier_output import earlier_output, remove_earlier
 from plantar.gait.analysis.masks import Masks
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.plotting import COLOURS, new_figure
@@ -31,6 +32,7 @@ _IN_WORDS = {
 
 def write_day(day: Day, masks: Masks, folder: Path, title: str, figures: bool = True) -> list[str]:
     """Write day.json, bouts.csv, hours.csv and, with figures, day.html with its figure; returns the paths."""
+    earlier = earlier_output(folder)
     with output_folder(folder) as target:
         summary = summary_of(day)
         write_text(target / "day.json", json.dumps(summary, indent=1, allow_nan=False) + "\n")
@@ -45,8 +47,10 @@ def write_day(day: Day, masks: Masks, folder: Path, title: str, figures: bool = 
                 [("day", figure_of(day), "Activities over the day, and load of each foot an hour")], target
             )
             write_text(target / "day.html", day_page(day, masks, drawn, title))
-        written = sorted(path.name for path in target.iterdir())
-    return [str(folder / name) for name in written]
+        names = sorted(path.name for path in target.iterdir())
+    written = [str(folder / name) for name in names]
+    remove_earlier(earlier, written)
+    return written
 
 
 def summary_of(day: Day) -> dict[str, Any]:
