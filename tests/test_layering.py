@@ -60,7 +60,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("controller_settings", "tick", "controller", "controller_tables"),
     ),
     "plantar.gait.analysis": (
-        *("masks", "measures", "options", "subject", "prints", "steps", "summary", "direction", "health", "activity"),
+        *("earlier_output", "masks", "measures", "options", "subject", "prints", "steps", "summary", "direction"),
+        *("health", "activity"),
         *(
             "parameters",
             "measure_errors",
