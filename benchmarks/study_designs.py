@@ -1,6 +1,6 @@
 """How often studies of eight designs find what is not there, and whether they find what is.
 
-python benchmarks/study_designs.py PART...      (parts: 1 to 8, each 2 to 8 minutes, and effect: two minutes)
+python benchmarks/study_designs.py PART...      (parts: 1 to 8, effect, whole; each up to 5 minutes)
 
 Each part is written to benchmarks/study_designs.csv, and the page study_designs.md of all of them.
 
@@ -10,10 +10,14 @@ values and a map of 36 x 14 places. A difference that is not there is one by p o
 
 The study with an effect is made of footsteps in files and goes the whole way: 20 people, 3 trials, 2 and 4 conditions,
 the last of which takes a fifth off the pressure under the left heel and is walked faster.
+
+Whole draws go from files through the command to its tables: made footsteps of 20 people, 3 trials in each of two
+conditions that differ by chance, speed allowed for.
 """
 
 import csv
 import hashlib
+import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -22,11 +26,12 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import numpy as np
-from made_walkway import made_walk, walker, write_stack
+from made_walkway import made_walk, metadata_of, upright, walker, write_stack
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from plantar.bench.tables import made_on, markdown_table, write_rows
+from plantar.cli import app
 from plantar.gait.analysis.study.designs import Design, compare_levels
 from plantar.gait.analysis.study.one_against_group import deviation_of
 from plantar.gait.analysis.study.run_study import Study, run_study
@@ -37,8 +42,8 @@ FOLDER = Path(__file__).parent
 PEOPLE = 20
 TRIALS, STEPS = 3, 10
 MEASURES = 20
-DRAWS = 2000
-"""Draws of each design."""
+DRAWS = 250
+"""Draws of each design: 2,000 in all."""
 
 PERMUTATIONS = 100
 """Permutations of each test: p is a multiple of 1/100, so that 5 % is met exactly; a study takes 500 or 2,000."""
@@ -53,6 +58,10 @@ _KINDS: tuple[tuple[tuple[int, ...], tuple[float, ...]], ...] = (
 )
 _LEFT_HEEL = 0.8
 _FASTER = 0.94  # times the step time in the condition with the effect
+
+
+WHOLE_DRAWS = 50
+_WALKERS, _WALKS, _STEPS_OF_WALK = 30, 10, 4  # from which whole draws take people, their trials, and footsteps of each
 
 
 class Draw(NamedTuple):
@@ -182,19 +191,82 @@ def _found_regions(effects: Mapping[str, Effect]) -> str:
     return ", ".join(dict.fromkeys(key.partition(".")[0] if "." in key else "foot" for key in known)) or "none"
 
 
+class Walk(NamedTuple):
+    """Footsteps (n, 101, 75, 40) of a made walk, and the text of their table."""
+
+    stack: NDArray[np.uint8]
+    table: str
+
+
+def walks_of_people() -> list[list[Walk]]:
+    """Some walks of each of some people."""
+    out = []
+    for person in range(_WALKERS):
+        random = seeded(f"walker {person}")
+        who = replace(walker(random), sole=1.0)
+        walks = [made_walk(who, 420, random)[:_STEPS_OF_WALK] for _ in range(_WALKS)]
+        shown = [[upright(step) for step in steps] for steps in walks]
+        out.append(
+            [
+                Walk(np.array([stack for stack, _ in own]), metadata_of(steps, [turn for _, turn in own], 1, "C", "W1"))
+                for steps, own in zip(walks, shown, strict=True)
+            ]
+        )
+    return out
+
+
+def whole_draw(people: Sequence[Sequence[Walk]], seed: int, folder: Path) -> list[bool]:
+    """Whether a study of files, through the command, reports a difference in measures, curves and maps."""
+    random = seeded(f"whole draw {seed}")
+    for person, who in enumerate(random.choice(len(people), PEOPLE, replace=False).tolist(), 1):
+        load = random.normal(1.0, 0.12)
+        trials = random.choice(len(people[who]), 2 * TRIALS, replace=False).tolist()
+        for condition in ("hard", "soft"):
+            of_condition = load * random.normal(1.0, 0.04)
+            for trial in range(TRIALS):
+                walk = people[who][trials.pop()]
+                of_steps = of_condition * random.normal(1.0, 0.03) * random.normal(1.0, 0.04, len(walk.stack))
+                target = folder / "set" / f"{person:03}" / condition / f"W{trial}"
+                target.mkdir(parents=True)
+                pressure = np.clip(np.rint(walk.stack * of_steps[:, None, None, None]), 0, 255).astype(np.uint8)
+                np.savez(target / "pipeline_1.npz", pressure)
+                (target / "metadata.csv").write_text(walk.table.replace("\n1,C,", f"\n{person},{condition},"))
+    command = ["analyze", str(folder / "set"), "-o", str(folder / "out"), "--no-figures"]
+    app([*command, "--covariate", "walking_speed_m_s"], standalone_mode=False)
+    with (folder / "out" / "comparison.csv").open(newline="") as stream:
+        measures = any(float(row["p_all"]) <= 0.05 for row in csv.DictReader(stream))
+    (comparison,) = json.loads((folder / "out" / "study.json").read_text())["comparisons"]
+    return [measures, *(any(c["p"] <= 0.05 for c in comparison[kind]["clusters"]) for kind in ("curve", "map"))]
+
+
+def whole_draws() -> dict[str, object]:
+    """Row of whole draws."""
+    people = walks_of_people()
+    counts = np.zeros(len(_KINDS), dtype=int)
+    for seed in range(WHOLE_DRAWS):
+        with TemporaryDirectory() as name:
+            counts += whole_draw(people, seed, Path(name))
+        print(f"whole draw {seed + 1}: {counts.tolist()}", file=sys.stderr, flush=True)
+    found = " ".join(map(str, counts.tolist()))
+    return {"part": "whole", "what": "files through the command", "draws": WHOLE_DRAWS, "found": found}
+
+
+def seeded(name: str) -> np.random.Generator:
+    return np.random.default_rng(list(hashlib.sha256(name.encode()).digest()))
+
+
 def counted(number: int) -> dict[str, object]:
     """Row of a design by its number: draws, and those in which a difference was found."""
     name, design = list(DESIGNS.items())[number - 1]
     counts = np.zeros(len(_KINDS), dtype=int)
     for seed in range(DRAWS):
-        random = np.random.default_rng(list(hashlib.sha256(f"{name}, draw {seed}".encode()).digest()))
-        counts += design(random)
+        counts += design(seeded(f"{name}, draw {seed}"))
     return {"part": str(number), "what": name, "draws": DRAWS, "found": " ".join(map(str, counts.tolist()))}
 
 
 def write_page(rows: list[dict[str, str]]) -> None:
     """Write the page of all parts."""
-    designs = [row for row in rows if row["part"] != "effect"]
+    designs = [row for row in rows if row["part"] not in ("effect", "whole")]
     effects = [row["found"].split(" | ") for row in rows if row["part"] == "effect"]
     lines = []
     sums = np.zeros((3, 2), dtype=int)
@@ -206,11 +278,12 @@ def write_page(rows: list[dict[str, str]]) -> None:
         shown = [f"{count} ({100.0 * count / draws:.1f} %)" for count in counts]
         lines.append((row["what"], draws, *shown, *["-"] * (3 - len(shown))))
     totals = [f"{count} of {draws} ({100.0 * count / max(1, draws):.2f} %)" for count, draws in sums.tolist()]
+    whole = [row["found"].split() for row in rows if row["part"] == "whole"]
     lines.append(("all", sum(int(row["draws"]) for row in designs), *totals))
     text = [
         "# Studies of eight designs, without and with a difference",
         "",
-        f"Written by `python benchmarks/study_designs.py 1 2 3 4 5 6 7 8 effect`, {made_on()}; {PEOPLE} people",
+        f"Written by `python benchmarks/study_designs.py 1 2 3 4 5 6 7 8 effect whole`, {made_on()}; {PEOPLE} people",
         f"(a group), {PERMUTATIONS} permutations.",
         "",
         f"Draws without a difference in which one was reported: in measures (p of all of {MEASURES}), curves and maps",
@@ -218,6 +291,11 @@ def write_page(rows: list[dict[str, str]]) -> None:
         "",
         markdown_table(("design", "draws", "measures", "curves (1D)", "maps (2D)"), lines),
         "",
+        *(
+            f"Of {WHOLE_DRAWS} whole studies, from files through the command, {PEOPLE} people and {TRIALS} trials in\n"
+            f"each of two conditions, speed allowed for: {measures} in measures, {curves} in curves, {maps} in maps.\n"
+            for measures, curves, maps in whole
+        ),
         f"Studies of made footsteps, {PEOPLE} people and {TRIALS} trials: the last condition takes "
         f"{100 * (1 - _LEFT_HEEL):.0f} % off the pressure under the left heel and is walked faster; speed is allowed",
         "for. Times of contact change with the pace, too. Where a difference was found (p of all), and where it",
@@ -236,6 +314,8 @@ def main() -> None:
             with TemporaryDirectory() as name:
                 found_rows = [r for n in (2, 4) for r in planted_rows(planted(Path(name) / f"set{n}", n))]
             new = [{"part": part, "what": r[0], "draws": 1, "found": " | ".join(r)} for r in found_rows]
+        elif part == "whole":
+            new = [whole_draws()]
         else:
             new = [counted(int(part))]
         print(new, flush=True)

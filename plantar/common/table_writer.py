@@ -61,7 +61,9 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
         >>> list(mapping_rows(["a", "b"], [{"b": 2}]))
         [[None, 2]]
     """
-    return ([row.get(name) for name in names] for row in rows)
+    ordered = list(names)
+    # Rows that have their cells in this order already are nearly all of a long table.
+    return (list(row.values()) if list(row) == ordered else [row.get(name) for name in ordered] for row in rows)
 
 
 def original_cell(text: str) -> str:

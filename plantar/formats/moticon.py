@@ -4,6 +4,7 @@
 the device's, as its cells cover a part of the sole.
 """
 
+import math
 import re
 from collections.abc import Iterator
 from itertools import islice
@@ -12,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force, unit_of_values
@@ -24,6 +26,11 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 
 _CHANNEL = re.compile(r"(left|right)\s+(.*?)\s*(?:\[(.*)\])?\s*$", re.IGNORECASE)
+# Channels of the inertial sensor, and what their units are in m/s^2 and rad/s.
+_MOTION = {
+    "acceleration": {"g": GRAVITY, "m/s2": 1.0, "m/s²": 1.0, "m/s^2": 1.0},
+    "angular": {"dps": math.pi / 180.0, "deg/s": math.pi / 180.0, "°/s": math.pi / 180.0, "rad/s": 1.0},
+}
 _USUAL_UNIT = "N/cm2"
 _LARGEST_HEADER = 1000
 _MOST_CHANNELS = 10_000
@@ -64,7 +71,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if unit.kind == "raw":
             total = None
             cop = None
-        feet[side] = FootRecording(side, pressure, layout, total=total, cop=cop)
+        motion = _motion(columns, table, side, warnings)
+        feet[side] = FootRecording(side, pressure, layout, total=total, cop=cop, motion=motion)
         scale_to_force(pressure, unit, layout.areas)
     if not feet:
         raise FormatError("no channel 'left pressure 1' or 'right pressure 1' holds values")
@@ -198,6 +206,26 @@ def _device_cop(
     out[(np.abs(along) > 0.75) | (np.abs(across) > 0.75) | ((along == 0.0) & (across == 0.0))] = np.nan
     out[np.isnan(out).any(axis=1)] = np.nan
     return out if np.isfinite(out).any() else None  # an empty column, or shares of something else
+
+
+def _motion(
+    columns: dict[str, tuple[int, str]], table: NDArray[np.float64], side: Side, warnings: list[str]
+) -> NDArray[np.float64] | None:
+    """Acceleration in m/s^2 and angular rate in rad/s (n, 6) of the insole's inertial sensor; None without it."""
+    names = [f"{kind} {axis}" for kind in _MOTION for axis in "xyz"]
+    if not all(name in columns for name in names):
+        return None
+    factors = [_MOTION[name.split()[0]].get(columns[name][1].strip().lower()) for name in names]
+    known = [factor for factor in factors if factor is not None]
+    if len(known) < len(names):
+        stated = ", ".join(dict.fromkeys(columns[name][1] or "none" for name in names))
+        warnings.append(
+            f"the {side} foot's inertial sensor has the units {stated}: strides are not taken from it; allowed: g or "
+            "m/s2, and dps or rad/s"
+        )
+        return None
+    motion = table[:, [columns[name][0] for name in names]] * np.array(known)
+    return motion if np.isfinite(motion).all(axis=1).any() else None
 
 
 FORMAT = Format(

@@ -61,7 +61,13 @@ def _without_impossible(recording: PressureRecording) -> PressureRecording:
     feet = dict(recording.feet)
     warnings = list(recording.warnings)
     for side, foot in recording.feet.items():
-        parts = {"force": foot.force, "total": foot.total, "cop": foot.cop, "wrench": foot.wrench}
+        parts = {
+            "force": foot.force,
+            "total": foot.total,
+            "cop": foot.cop,
+            "wrench": foot.wrench,
+            "motion": foot.motion,
+        }
         changed = {
             n: part for n, whole in parts.items() if whole is not None and (part := possible(whole)) is not whole
         }

@@ -70,7 +70,7 @@ def _step(values: NDArray[Any], stated: StatedStep, file: WalkwayFile) -> Walkwa
         return None
     frames = stated.end - stated.begin + 1
     chosen = frames_of_times(times, frames)
-    pressure = flat[np.ix_(chosen, kept)].astype(float)
+    pressure = np.take(flat[chosen], kept, axis=1)
     if values.dtype.kind != "u" and not (np.isfinite(highest).all() and values.min() >= 0):
         raise FormatError(f"footstep {stated.number} holds values below 0, or that are no numbers; allowed: pressures")
     if values.dtype.kind == "f" and abs(float(flat.sum()) / times - 1.0) < _ONE:
@@ -85,7 +85,7 @@ def _step(values: NDArray[Any], stated: StatedStep, file: WalkwayFile) -> Walkwa
     return WalkwayStep(
         side=stated.side,
         cells=cells,
-        force=pressure * (file.factor * PITCH**2),
+        force=np.multiply(pressure, file.factor * PITCH**2, dtype=float),
         time=at / file.rate_hz,
         strike=stated.begin / file.rate_hz,
         lift=stated.end / file.rate_hz,

@@ -62,6 +62,20 @@ def step_table_beside(path: Path) -> StepTable | None:
     return read_step_table(table) if is_file(table) else None
 
 
+def people_of_steps(path: Path) -> Mapping[str, str]:
+    """Participant, footwear and speed that the table in a walk's folder states; empty without one, or unreadable.
+
+    What is wrong with a table is reported where its footsteps are read.
+    """
+    table = path.parent / NAME
+    if not is_file(table):
+        return {}
+    try:
+        return _who(read_text_table(table, FormatError))
+    except FormatError:
+        return {}
+
+
 def read_step_table(path: str | os.PathLike[str]) -> StepTable:
     """Read a table of footsteps: a row each, with Side, StartFrame and EndFrame, and what else StepUP-P150 states.
 
@@ -78,31 +92,43 @@ def read_step_table(path: str | os.PathLike[str]) -> StepTable:
             f"{os.fspath(path)}: no column {', '.join(missing)}; allowed: a row a footstep with Side, StartFrame, "
             "EndFrame"
         )
-    steps = [_stated(path, table, place, line, row) for place, (line, row) in enumerate(table.rows)]
+    columns = {name: at for name in table.names if (at := table.column(name)) is not None}
+    steps = [_stated(path, columns, place, line, row) for place, (line, row) in enumerate(table.rows)]
     if not steps:
         raise FormatError(f"{os.fspath(path)}: no footstep in it; allowed: a row a footstep")
     if len({step.number for step in steps}) < len(steps):
         raise FormatError(f"{os.fspath(path)}: a FootstepID is given twice; allowed: each once")
+    return StepTable(tuple(steps), _who(table))
+
+
+def _who(table: TextTable) -> dict[str, str]:
+    if not table.rows:
+        return {}
     first = table.rows[0][1]
     known = {"participant": "participantid", "footwear": "footwear", "speed": "speed"}
     named = ((key, table.column(name)) for key, name in known.items())
     who = {key: first[at].strip() for key, at in named if at is not None and at < len(first) and first[at].strip()}
     if who.get("participant", "").isdigit():
         who["participant"] = f"{int(who['participant']):03}"  # as the folders are named
-    return StepTable(tuple(steps), who)
+    return who
 
 
-def _stated(path: str | os.PathLike[str], table: TextTable, place: int, line: int, row: list[str]) -> StatedStep:
+def _stated(
+    path: str | os.PathLike[str], columns: Mapping[str, int], place: int, line: int, row: list[str]
+) -> StatedStep:
     def text(name: str) -> str:
-        at = table.column(name)
-        return row[at].strip() if at is not None and at < len(row) else ""
+        at = columns.get(name, len(row))
+        return row[at].strip() if at < len(row) else ""
 
     def whole(name: str, default: int | None = None) -> int:
-        found = number(text(name))
-        if not text(name) and default is not None:
+        held = text(name)
+        if held.isascii() and held.isdigit() and len(held) < 10:
+            return int(held)
+        found = number(held)
+        if not held and default is not None:
             return default
         if found is None or found != round(found) or not 0 <= found < 1e9:
-            raise FormatError(f"{os.fspath(path)}, line {line}: {name} is {text(name)!r}; allowed: a whole number")
+            raise FormatError(f"{os.fspath(path)}, line {line}: {name} is {held!r}; allowed: a whole number")
         return int(found)
 
     side = text("side").lower()

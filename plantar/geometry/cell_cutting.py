@@ -36,10 +36,14 @@ class CellCutter:
         self._set(layout.vertices[layout.corner_vertex, :2], layout.corner_start)
 
     @classmethod
-    def of_polygons(cls, polygons: Sequence[NDArray[np.float64]]) -> Self:
-        """Cutter of cells given by corners (k, 2) in m, counter-clockwise."""
+    def of_polygons(cls, polygons: Sequence[NDArray[np.float64]] | NDArray[np.float64]) -> Self:
+        """Cutter of cells given by corners (k, 2) in m each, or (n, k, 2) of all, counter-clockwise."""
         cutter = cls.__new__(cls)
-        cutter._set(np.concatenate(polygons), np.cumsum([0, *map(len, polygons)]))
+        if isinstance(polygons, np.ndarray):
+            count, corners = polygons.shape[:2]
+            cutter._set(polygons.reshape(-1, 2), corners * np.arange(count + 1))
+        else:
+            cutter._set(np.concatenate(polygons), np.cumsum([0, *map(len, polygons)]))
         return cutter
 
     def _set(self, points: NDArray[np.float64], start: NDArray[np.integer[Any]]) -> None:

@@ -56,6 +56,21 @@ class CellGrid:
         """Grid of some cells by their indices or a mask."""
         return CellGrid(self.row[cells], self.column[cells], self.pitch)
 
+    def ends_of_rows(self, cells: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Which of some cells (n,) are the first or last of them in their row: all others lie between two of these.
+
+        Example:
+            >>> CellGrid(np.array([0, 0, 0, 1]), np.array([2, 3, 4, 3])).ends_of_rows(np.arange(4)).tolist()
+            [True, False, True, True]
+        """
+        row = self.row[cells] - self.row[cells].min(initial=0)
+        column = self.column[cells]
+        first = np.full(int(row.max(initial=0)) + 1, np.iinfo(np.int64).max)
+        last = np.full(len(first), np.iinfo(np.int64).min)
+        np.minimum.at(first, row, column)
+        np.maximum.at(last, row, column)
+        return np.asarray((column == first[row]) | (column == last[row]))
+
     def numbers(self) -> NDArray[np.int64]:
         """Index of the cell at each place (h, w) of the box around all cells, -1 where there is none."""
         box = np.full((np.ptp(self.row) + 1, np.ptp(self.column) + 1), -1)

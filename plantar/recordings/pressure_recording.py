@@ -42,6 +42,8 @@ class FootRecording:
         cop: Device's CoP (n, 2) in m, NaN without load; None to compute it.
         wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, if measured.
         placement: Sole pose (n, 3) on the ground, x and y in m and turn about z in rad, if known.
+        motion: Acceleration (with gravity) in m/s^2 and angular rate in rad/s (n, 6) of an inertial sensor in the sole,
+            in its own axes, NaN if unmeasured; None without one.
     """
 
     side: Side
@@ -51,6 +53,7 @@ class FootRecording:
     cop: NDArray[np.float64] | None = None
     wrench: NDArray[np.float64] | None = None
     placement: NDArray[np.float64] | None = None
+    motion: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         if self.layout is not None and len(self.layout) != self.force.shape[1]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 
 @dataclass(frozen=True)
@@ -138,6 +139,7 @@ def full_title(key: str) -> str:
     return f"CoP {measure.title[0].lower()}{measure.title[1:]}" if key.startswith("cop_") else measure.title
 
 
+@lru_cache(maxsize=2048)  # of the same measures of each of many steps
 def in_percent(key: str) -> str:
     """Measure's key in percent of body weight or foot length; empty where it is not given so.
 

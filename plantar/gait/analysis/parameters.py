@@ -1,5 +1,6 @@
 """Gait parameters: measures of each step (docs/metrics.md)."""
 
+import math
 from bisect import bisect
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -29,6 +30,7 @@ from plantar.gait.analysis.steps.events import (
     threshold_levels,
 )
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+from plantar.gait.analysis.steps.inertial_strides import inertial_strides
 from plantar.gait.analysis.steps.pressure_measures import pressure_measures, region_measures
 from plantar.gait.analysis.steps.segments import most_common, with_activities, without_standing
 from plantar.gait.analysis.steps.stated import stated_contacts
@@ -247,6 +249,7 @@ def analyse_foot(
     longest = iter(most)
     strides = iter(stride_times(gait.contacts, most))
     complete = [c for c in gait.contacts if c.complete]
+    lengths = iter(_inertial(recording, gait))
     before = dict(zip(map(id, gait.contacts), [None, *gait.contacts], strict=False))
     steps: list[Step] = []
     platform = recording.kind == "platform"
@@ -262,10 +265,24 @@ def analyse_foot(
             times = time_measures(contact, before[id(contact)], next(strides), next(longest), others)
             part = loads.of(contact) if robot else None
             measures = {**times, **step_measures(recording, gait, contact, print_, pressure, part)}
+            measures |= _of_stride(next(lengths), times["stride_time_s"])
             strike = cast(float, contact.heel_strike)
             lift = cast(float, contact.toe_off)
             steps.append(Step(side, len(steps) + 1, strike, lift, contact, measures, own, print_, region))
-    return replace(gait, steps=tuple(steps), warnings=tuple(_doubts(recording, gait)))
+    gait = replace(gait, steps=tuple(steps))
+    return replace(gait, warnings=tuple(_doubts(recording, gait)))
+
+
+def _inertial(recording: PressureRecording, gait: FootGait) -> list[float]:
+    motion = gait.foot.motion
+    if motion is None or recording.kind != "insole":
+        return [math.nan] * sum(contact.complete for contact in gait.contacts)
+    return inertial_strides(recording.time, motion, gait.contacts)
+
+
+def _of_stride(length: float, time: float) -> dict[str, float]:
+    known = math.isfinite(length) and math.isfinite(time)
+    return {"stride_length_m": length, "stride_velocity_m_s": length / time} if known else {}
 
 
 def _events_of(
@@ -367,6 +384,10 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
     side = gait.foot.side
     if recording.kind != "insole":
         return out
+    if any("stride_length_m" in step.measures for step in gait.steps):
+        out.append(
+            f"strides of the {side} foot are integrated from its inertial sensor, to about 6 % (docs/metrics.md)"
+        )
     if gait.footprint is not None and gait.footprint.toe_line is None:
         out.append(
             f"no valley of pressure parts the {side} foot's toes from its forefoot: its toe regions begin at 82 % "

@@ -32,6 +32,8 @@ class Footprint:
         areas: Cell areas (n,) in m^2.
         pressure: Largest (n,) of each cell, or 1 if unknown.
         toe_line: u in m where toes begin, as (v, u) points from lateral to medial; None where not separated.
+        edge: Cells (n,) whose corners span the convex hull; None where not known.
+        alike: Whether all cells have one shape and direction.
     """
 
     side: Side
@@ -41,11 +43,13 @@ class Footprint:
     areas: NDArray[np.float64]
     pressure: NDArray[np.float64]
     toe_line: NDArray[np.float64] | None = None
+    edge: NDArray[np.bool_] | None = None
+    alike: bool = False
 
     @cached_property
     def ends(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Least and largest (u, v) in m of each cell, (n, 2) each."""
-        return extremes(self.rings)
+        return extremes(self.rings, self.alike)
 
     @cached_property
     def centres(self) -> NDArray[np.float64]:
@@ -53,7 +57,7 @@ class Footprint:
         low, high = self.ends
         return np.asarray(0.5 * (low + high))
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length in m, toes included."""
         return float(self.ends[1][:, 0].max())
@@ -83,7 +87,7 @@ class Footprint:
         met = (last > low) & (first < high) & ~self.is_toe
         total = float(self.areas[within].sum())
         if (met & ~within).any():
-            cells = CellCutter.of_polygons(list(self.rings[met & ~within]))
+            cells = CellCutter.of_polygons(self.rings[met & ~within])
             whole, cut = (cells.cut(lines)[0][:, 0] for lines in ([], [[-1.0, 0.0, -low], [1.0, 0.0, high]]))
             total += float(
                 self.areas[met & ~within] @ np.divide(cut, whole, out=np.zeros_like(cut), where=whole != 0.0)
@@ -92,13 +96,14 @@ class Footprint:
 
     def arch_index(self) -> float:
         """Middle third over all of the toeless footprint (Cavanagh & Rodgers 1987); NaN if empty."""
-        length = self.toeless_length
-        thirds = [self.area_between(i * length / 3.0, (i + 1) * length / 3.0) for i in range(3)]
-        return thirds[1] / sum(thirds) if sum(thirds) > 0.0 else float("nan")
+        third = self.toeless_length / 3.0
+        whole = float(self.areas[~self.is_toe].sum())
+        return self.area_between(third, 2.0 * third) / whole if whole > 0.0 else float("nan")
 
     @cached_property
     def _hull(self) -> NDArray[np.float64]:
-        return convex_hull(self.rings.reshape(-1, 2))
+        rings = self.rings if self.edge is None else self.rings[self.edge]
+        return convex_hull(rings.reshape(-1, 2))
 
     def width_at(self, u: float) -> float:
         """Width in m of the convex hull at a line across the axis, or 0."""
@@ -143,7 +148,10 @@ def footprint_of_cells(
     chosen = np.flatnonzero(loaded)
     if len(chosen) == 0:
         return None
-    return _footprint(layout.cell_rings(chosen), layout.areas[chosen], pressure[chosen], side, forward)
+    print_ = _footprint(
+        layout.cell_rings(chosen), layout.areas[chosen], pressure[chosen], side, forward, isinstance(layout, CellGrid)
+    )
+    return replace(print_, edge=layout.ends_of_rows(chosen)) if isinstance(layout, CellGrid) else print_
 
 
 def footprint_of_pixels(
@@ -155,7 +163,7 @@ def footprint_of_pixels(
     """
     box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     rings = centres[:, None, :] + box
-    return _footprint(rings, np.full(len(centres), pixel**2), np.ones(len(centres)), side, forward)
+    return _footprint(rings, np.full(len(centres), pixel**2), np.ones(len(centres)), side, forward, alike=True)
 
 
 def _footprint(
@@ -164,16 +172,28 @@ def _footprint(
     pressure: NDArray[np.float64],
     side: Side,
     forward: NDArray[np.float64] | None,
+    alike: bool,
 ) -> Footprint:
-    axis, through = (np.array([1.0, 0.0]), np.zeros(2)) if forward is None else _axis(rings, areas, forward)
+    axis, through = (np.array([1.0, 0.0]), np.zeros(2)) if forward is None else _axis(rings, areas, forward, alike)
     back = float((rings @ axis).min())
     origin = through + (back - float(through @ axis)) * axis
-    print_ = Footprint(side, origin, axis, rings, areas, pressure)
+    print_ = Footprint(side, origin, axis, rings, areas, pressure, alike=alike)
     return replace(print_, rings=print_.in_foot(rings.reshape(-1, 2)).reshape(rings.shape))
 
 
-def extremes(rings: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Least and largest coordinates (n, 2) of rings (n, c, 2): several times faster than over so short an axis."""
+def extremes(rings: NDArray[np.float64], alike: bool = False) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Least and largest coordinates (n, 2) of rings (n, c, 2): several times faster than over so short an axis.
+
+    Of rings that are `alike`, moved and not turned, the same corners are least and largest.
+    """
+    if alike and len(rings):
+        ends = (rings[0].argmin(axis=0), rings[0].argmax(axis=0))
+        first = np.empty((len(rings), 2))
+        last = np.empty((len(rings), 2))
+        for out, corners in zip((first, last), ends, strict=True):
+            for axis, corner in enumerate(corners.tolist()):
+                out[:, axis] = rings[:, corner, axis]
+        return first, last
     low = rings[:, 0]
     high = rings[:, 0]
     for corner in range(1, rings.shape[1]):
@@ -183,17 +203,19 @@ def extremes(rings: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def _axis(
-    rings: NDArray[np.float64], areas: NDArray[np.float64], forward: NDArray[np.float64]
+    rings: NDArray[np.float64], areas: NDArray[np.float64], forward: NDArray[np.float64], alike: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Print's axis: direction (2,) and point (2,); halves the widths of heel and forefoot."""
     axis = np.asarray(forward, dtype=float) / np.hypot(*forward)
-    through = np.average(0.5 * np.add(*extremes(rings)), axis=0, weights=areas)
+    through = np.average(0.5 * np.add(*extremes(rings, alike)), axis=0, weights=areas)
     for _ in range(_ROUNDS):  # the bands turn with the axis
         turned = rings.reshape(-1, 2) @ np.array([[axis[0], -axis[1]], [axis[1], axis[0]]])
-        first, last = extremes(turned.reshape(rings.shape))
+        first, last = extremes(turned.reshape(rings.shape), alike)
         low = float(first[:, 0].min())
         length = float(last[:, 0].max()) - low
-        heel, fore = (_middle_of_band(first, last, axis, low + a * length, low + b * length) for a, b in _BANDS)
+        centre = 0.5 * (first[:, 0] + last[:, 0])
+        across = first[:, 1], last[:, 1]
+        heel, fore = (_middle_of_band(centre, across, axis, low + a * length, low + b * length) for a, b in _BANDS)
         if heel is None or fore is None or np.hypot(*(fore - heel)) < 0.2 * length:
             break
         step = fore - heel
@@ -203,12 +225,15 @@ def _axis(
 
 
 def _middle_of_band(
-    first: NDArray[np.float64], last: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
+    centre: NDArray[np.float64],
+    across: tuple[NDArray[np.float64], NDArray[np.float64]],
+    axis: NDArray[np.float64],
+    low: float,
+    high: float,
 ) -> NDArray[np.float64] | None:
-    """Middle of the cells in a band, by the ends (n, 2) of each along and across the axis."""
-    centre = 0.5 * (first[:, 0] + last[:, 0])
+    """Middle of the cells in a band, by the centre (n,) of each along the axis and its two ends (n,) across."""
     inside = (centre >= low) & (centre <= high)
     if not inside.any():
         return None
-    middle = 0.5 * float(first[inside, 1].min() + last[inside, 1].max())
+    middle = 0.5 * float(across[0][inside].min() + across[1][inside].max())
     return np.asarray(0.5 * (low + high) * axis + middle * np.array([-axis[1], axis[0]]))

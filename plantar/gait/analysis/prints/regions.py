@@ -7,6 +7,7 @@ its forefoot into width thirds; the hallux is the medial part of the toes.
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,48 +36,58 @@ def with_toe_line(print_: Footprint) -> Footprint:
     In each strip along the foot the valley beyond the highest pressure between 45 and 80 % of the length counts if
     below 60 % of what follows. Strips without one use their neighbours' line.
     """
-    low, high = print_.ends
-    extent = high[:, 0] - low[:, 0]
+    low, high = (end[:, 0] for end in print_.ends)
+    extent = high - low
     pitch = float(np.median(extent)) if len(extent) else 0.0
     if np.ptp(print_.centres[:, 1]) < 2.0 * pitch or print_.length < 6.0 * pitch:
         return print_
     found = _valleys(print_, pitch)
     if len(found) < 2 and not (found and _whole_gap(print_, pitch)):
         return print_
-    middle = float(np.median([at for _, at in found]))
+    middle = median(at for _, at in found)
     kept = [(place, at) for place, at in found if abs(at - middle) < 0.12 * print_.length]
     return replace(print_, toe_line=np.array(kept))
 
 
 def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
     v = print_.centres[:, 1]
+    edges = np.linspace(float(v.min()) - 1e-9, float(v.max()) + 1e-9, _STRIPS + 1)
+    strips = [(v >= a - 0.25 * pitch) & (v <= b + 0.25 * pitch) for a, b in pairwise(edges)]
+    places, heights = _profiles(print_, np.array(strips), pitch)
     found: list[tuple[float, float]] = []
-    for a, b in pairwise(np.linspace(float(v.min()) - 1e-9, float(v.max()) + 1e-9, _STRIPS + 1)):
-        strip = (v >= a - 0.25 * pitch) & (v <= b + 0.25 * pitch)
-        at = _valley(print_, strip, pitch) if strip.any() else None
+    for (a, b), height in zip(pairwise(edges.tolist()), heights, strict=True):
+        at = _valley(print_.length, places, height)
         if at is not None:
-            found.append((0.5 * float(a + b), at))
+            found.append((0.5 * (a + b), at))
     return found
 
 
-def _profile(
-    print_: Footprint, strip: NDArray[np.bool_], pitch: float
+def _profiles(
+    print_: Footprint, strips: NDArray[np.bool_], pitch: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Places (p,) along the foot in m, and the largest pressure (s, p) there of the cells (s, n) of each strip."""
     places = np.arange(0.40 * print_.length, print_.length, 0.5 * max(pitch, print_.length / 200.0))
-    pressure = print_.pressure[strip]
-    first, last = (end[strip, 0] for end in print_.ends)
-    over = (first[:, None] <= places) & (last[:, None] >= places)
-    return places, np.where(over, pressure[:, None], 0.0).max(axis=0, initial=0.0)
+    low, high = print_.ends
+    begin = np.searchsorted(places, low[:, 0], "left")
+    end = np.searchsorted(places, high[:, 0], "right")
+    strip, cell = np.nonzero(strips & (begin < end))
+    begin = begin[cell]
+    end = end[cell]
+    pressure = print_.pressure[cell]
+    heights = np.zeros((len(strips), len(places)))
+    for place in range(int((end - begin).max(initial=0))):  # a cell lies over a few places side by side
+        over = begin + place < end
+        np.maximum.at(heights, (strip[over], begin[over] + place), pressure[over])
+    return places, heights
 
 
-def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float | None:
-    """u of the middle of a strip's valley between forefoot and toes."""
-    places, height = _profile(print_, strip, pitch)
-    fore = (places >= 0.45 * print_.length) & (places <= 0.80 * print_.length)
+def _valley(length: float, places: NDArray[np.float64], height: NDArray[np.float64]) -> float | None:
+    """u of the middle of a strip's valley between forefoot and toes, by its heights (p,) at places along the foot."""
+    fore = (places >= 0.45 * length) & (places <= 0.80 * length)
     if not fore.any() or height[fore].max() <= 0.0:
         return None
     peak = int(np.flatnonzero(fore)[np.argmax(height[fore])])
-    within = (places >= 0.62 * print_.length) & (places <= 0.92 * print_.length)
+    within = (places >= 0.62 * length) & (places <= 0.92 * length)
     beyond = np.maximum.accumulate(height[::-1])[::-1]
     top = height[peak]
     after = np.append(beyond[1:], 0.0)
@@ -91,7 +102,7 @@ def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float 
 
 
 def _whole_gap(print_: Footprint, pitch: float) -> bool:
-    places, height = _profile(print_, np.ones(len(print_.areas), dtype=bool), pitch)
+    places, (height,) = _profiles(print_, np.ones((1, len(print_.areas)), dtype=bool), pitch)
     front = height[places > 0.6 * print_.length]
     return bool(len(front) and (front[: -1 if len(front) > 1 else None] == 0.0).any())
 

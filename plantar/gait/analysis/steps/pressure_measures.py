@@ -1,19 +1,17 @@
 """Pressure of contacts: peaks, integrals, areas, regions, and a robot's wrench."""
 
 from collections.abc import Sequence
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.batch import support_polygons
-from plantar.formats.recorded_layouts import grid_cells
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.geometry.polygon import signed_margin
+from plantar.kernels.geometry import row_hulls
 from plantar.layouts.cell_grid import CellGrid
 from plantar.layouts.layout import SoleLayout
 
-_BOX = 8  # Rows and columns by which boxes around footprints differ, of which a layout each is kept
 _MOST_FRAMES = 200  # Frames of a contact in which support polygons are looked at; of more, every n-th
 
 
@@ -60,22 +58,9 @@ def hull_areas(grid: CellGrid, force: NDArray[np.float64]) -> NDArray[np.float64
     """
     row = grid.row - grid.row.min()
     column = grid.column - grid.column.min()
-    rows, columns = (-(-(int(ends.max()) + 1) // _BOX) * _BOX for ends in (row, column))
-    layout = _whole_box(rows, columns, grid.pitch)
-    loaded = np.zeros((len(force), rows, columns), dtype=bool)
-    loaded[:, rows - 1 - row, column] = force > 0.0
-    frame, line = np.nonzero(loaded.any(axis=2))
-    own = loaded[frame, line]
-    ends = np.zeros((len(force), rows, columns))  # no cell between the first and last of a row is a corner
-    ends[frame, line, own.argmax(axis=1)] = 1.0
-    ends[frame, line, columns - 1 - own[:, ::-1].argmax(axis=1)] = 1.0
-    return support_polygons(layout, ends.reshape(len(force), -1), 0.0).area
-
-
-@lru_cache(maxsize=64)
-def _whole_box(rows: int, columns: int, pitch: tuple[float, float]) -> SoleLayout:
-    present = np.ones((rows, columns), dtype=bool)
-    return grid_cells(present, *pitch, side="left", name="box", threshold=0.0)
+    cells = np.empty(len(force))
+    row_hulls.hull_areas(force, row.astype(np.intp), column.astype(np.intp), cells)
+    return cells * (grid.pitch[0] * grid.pitch[1])
 
 
 def region_measures(
@@ -91,16 +76,20 @@ def region_measures(
     if len(order) == 0:
         return [{} for _ in durations]
     present, starts = np.unique(region[order], return_index=True)
-    force = np.add.reduceat(np.take(load.force, order, axis=1), starts, axis=1)
-    pressure = np.maximum.reduceat(np.take(load.pressure, order, axis=1), starts, axis=1)
-    loaded = np.take(load.loaded, order, axis=1)
+    chosen: NDArray[np.int64] | slice = order
+    if (np.diff(order) == 1).all():  # they lie so already
+        chosen = slice(int(order[0]), int(order[-1]) + 1)
+    force = np.add.reduceat(load.force[:, chosen], starts, axis=1)
+    pressure = np.maximum.reduceat(load.pressure[:, chosen], starts, axis=1)
+    loaded = load.loaded[:, chosen]
     on = np.logical_or.reduceat(loaded, starts, axis=1).astype(float)
     whole = load.integral(load.force.sum(axis=1))
     time = np.array(durations)
     with np.errstate(invalid="ignore", divide="ignore"):
         impulse = load.integral(force)
         step = np.diff(load.time)
-        usual = float(np.median(step[step > 0.0])) if (step > 0.0).any() else 0.0
+        steps = np.sort(step[step > 0.0])
+        usual = 0.5 * float(steps[(len(steps) - 1) // 2] + steps[len(steps) // 2]) if len(steps) else 0.0
         contact = np.minimum(np.add.reduceat(on, load.starts, axis=0) * usual, time[:, None])
         out = {
             "peak_force_N": load.most(force),

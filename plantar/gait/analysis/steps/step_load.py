@@ -47,6 +47,8 @@ class StepLoad:
         """Integral (c,) or (c, j) over each contact of values (m,) or (m, j)."""
         if values.ndim == 1:
             return np.asarray(np.add.reduceat(self.weights * values, self.starts))
+        if len(self.starts) == 1:
+            return np.asarray(self.weights @ values)[None]
         ends = self.starts + self.lengths
         return np.stack([self.weights[a:b] @ values[a:b] for a, b in zip(self.starts, ends, strict=True)])
 

@@ -27,7 +27,7 @@ from plantar.gait.analysis.pages.force_figures import stance_curves
 from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.study.participants import Participation
-from plantar.gait.analysis.study.stored_steps import StoredRows
+from plantar.gait.analysis.study.stored_steps import StoredRows, in_columns
 from plantar.gait.analysis.subject import Subject
 from plantar.gait.analysis.summary import gait_of_feet
 from plantar.gait.analysis.walkway.measured_walkway import SENSOR, measure_walkway
@@ -277,7 +277,7 @@ def write_result(result: RecordingResult, path: Path) -> RecordingResult:
     plain = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ("curves", "maps", "rows")}
     parts = zip(_ARRAYS, (result.curves, result.maps), strict=True)
     arrays: dict[str, Any] = {f"{part}{side}": values for part, of in parts for side, values in of.items()}
-    texts = {"text": {**plain, "rows": len(result.rows)}, "rows": list(result.rows)}
+    texts = {"text": {**plain, "rows": len(result.rows)}, "rows": in_columns(result.rows)}
     stored: dict[str, Any] = {
         name: np.frombuffer(json.dumps(held, default=asdict).encode(), np.uint8) for name, held in texts.items()
     }

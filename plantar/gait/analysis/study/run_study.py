@@ -21,9 +21,9 @@ from plantar.common.version import VERSION
 from plantar.common.workers.cluster_workers import ClusterWorkers
 from plantar.common.workers.local_workers import LocalWorkers
 from plantar.common.workers.workers import Job
-from plantar.errors import FormatError, InputError, PlantarError
+from plantar.errors import InputError, PlantarError
 from plantar.formats import ReadOptions, formats
-from plantar.formats.step_table import masses_of_people, step_table_beside
+from plantar.formats.step_table import masses_of_people, people_of_steps
 from plantar.formats.walkway import one_of_each_walk
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures
@@ -297,16 +297,13 @@ def _others(
 def _unlisted(root: Path, path: Path) -> Participation:
     """A file that no table lists: of the person and footwear that its table of footsteps states, or of its own name."""
     name = str(path.relative_to(root))
-    try:
-        steps = step_table_beside(path)
-    except FormatError:  # which measuring the file reports
-        steps = None
-    if steps is None or "participant" not in steps.who:
+    stated = people_of_steps(path)
+    if "participant" not in stated:
         return Participation(file=name, participant=path.stem, listed=False)
-    who = steps.who["participant"]
-    more = {key: value for key, value in steps.who.items() if key == "speed"}
+    who = stated["participant"]
+    more = {key: value for key, value in stated.items() if key == "speed"}
     mass = masses_of_people(path).get(who)
-    return Participation(name, who, steps.who.get("footwear", ""), mass, more=more, listed=False)
+    return Participation(name, who, stated.get("footwear", ""), mass, more=more, listed=False)
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,10 +47,21 @@ class StoredRows(Rows):
     def _read(self) -> list[Mapping[str, Any]]:
         try:
             with self.path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
-                rows: list[Mapping[str, Any]] = json.loads(held["rows"].tobytes())
+                names, values = json.loads(held["rows"].tobytes())
+                return [dict(zip(names, row, strict=True)) for row in values]
         except Exception as error:  # removed or cut short while the study goes on
             raise InputError(f"{self.path}: the stored steps are gone ({error}); run the study again") from None
-        return rows
+
+
+def in_columns(rows: Rows) -> tuple[list[str], list[list[Any]]]:
+    """Names of rows of steps, once, and the values of each; None where a row has none.
+
+    Example:
+        >>> in_columns([{"step": 1, "arch_index": 0.2}, {"step": 2}])
+        (['step', 'arch_index'], [[1, 0.2], [2, None]])
+    """
+    names = columns_of(rows, ())
+    return names, list(map(list, mapping_rows(names, rows)))
 
 
 class KeptFolder:

@@ -17,6 +17,7 @@ from plantar.gait.analysis.steps.step_footprint import cells_in_polygons, with_r
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.gait.analysis.steps.step_measures import force_measures, landing_impact
 from plantar.gait.analysis.steps.walk_geometry import Place
+from plantar.layouts.cell_grid import CellGrid
 from plantar.layouts.layout import Side
 from plantar.recordings.walkway_step import WalkwayStep
 
@@ -59,13 +60,18 @@ def measure_step(step: WalkwayStep, masks: Masks, grid: tuple[int, int]) -> Meas
     if print_ is None or len(step.time) < _FEWEST:
         return None
     print_, region = with_regions(masks, step.cells, print_, None, loaded)
-    load = StepLoad(step.time, step.force, step.force / area, step.force > threshold, step.cells.areas)
     total = step.force.sum(axis=1)
-    measures = force_measures(step.time, total, step.strike, step.lift) | pressure_measures(load, step.cells)[0]
+    cop = _path(step, total)
+    # Cells of a region side by side: its sums are then taken where the cells lie.
+    order = np.argsort(region, kind="stable")
+    region = region[order]
+    cells = step.cells.of_cells(order)
+    force = step.force[:, order]
+    load = StepLoad(step.time, force, force / area, force > threshold, cells.areas)
+    measures = force_measures(step.time, total, step.strike, step.lift) | pressure_measures(load, cells)[0]
     measures["landing_impact_N"] = landing_impact(step.time, total, step.strike)
     if measures["footprint_area_m2"] > 0.0:
         measures["force_time_integral_area_Pas"] = measures["impulse_Ns"] / measures["footprint_area_m2"]
-    cop = _path(step, total)
     measures |= cop_measures(step.time, print_.in_foot(cop))
     measures["cpei_percent"] = excursion_index(print_, cop)
     measures |= {"arch_index": print_.arch_index(), "foot_length_m": print_.length, "foot_width_m": print_.width}
@@ -77,7 +83,7 @@ def measure_step(step: WalkwayStep, masks: Masks, grid: tuple[int, int]) -> Meas
         step.walk,
         step.unused,
         measures,
-        _regions(load, masks, region, print_, step),
+        _regions(load, masks, region, print_, cells, step.lift - step.strike),
         _place(step, print_),
         np.interp(moments, step.time, total),
         _map(step, print_, highest / area, grid),
@@ -94,14 +100,14 @@ def _path(step: WalkwayStep, total: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _regions(
-    load: StepLoad, masks: Masks, region: NDArray[np.int64], print_: Footprint, step: WalkwayStep
+    load: StepLoad, masks: Masks, region: NDArray[np.int64], print_: Footprint, cells: CellGrid, duration: float
 ) -> Mapping[str, Mapping[str, float]]:
     names = [name for name, _ in masks.names]
-    lasts = [step.lift - step.strike]
+    lasts = [duration]
     if masks.kind != "polygons":
         return region_measures(load, region, names, lasts)[0]
     out: dict[str, Mapping[str, float]] = {}
-    for name, inside in zip(names, cells_in_polygons(masks, step.cells, print_), strict=True):
+    for name, inside in zip(names, cells_in_polygons(masks, cells, print_), strict=True):
         out |= region_measures(load, np.where(inside, 0, -1), [name], lasts)[0]
     return out
 
