@@ -33,7 +33,7 @@ def inertial_strides(
         motion: Acceleration in m/s^2 and angular rate in rad/s (n, 6) in the sensor's own axes; NaN if unmeasured.
         contacts: All contacts of the foot.
     """
-    known = np.isfinite(motion).all(axis=1)
+    known: NDArray[np.bool_] = np.asarray(np.isfinite(motion).all(axis=1))
     out = [math.nan] * sum(contact.complete for contact in contacts)
     if len(time) < 2 or known.sum() < 2:
         return out
