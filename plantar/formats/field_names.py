@@ -72,7 +72,8 @@ _UNIT = re.compile(
 _VOLTS = re.compile(r"(?i)[fm]\d*[xyz]\d*[_ ](m?v|volts?)$")  # of a plate's channel; after another word v is vertical
 _LETTER = re.compile(r"(plate|platform|fp|belt)[ _-]?([a-d])(?![a-z])", re.IGNORECASE)  # instead of a number
 _COORDINATE = re.compile(r"\[[0-2]\]\s*$")  # of a marker, as LTOE[0]
-_PLACE_OF_KISTLER = re.compile(r"A([xy])(\d*)\s*")  # of BioWare: a place where in m, else an acceleration
+# Of BioWare: a place where in m, else an acceleration.
+_PLACE_OF_KISTLER = re.compile(r"(.*(?<![a-zA-Z]))A([xy])(\d*)\s*")
 _ADAPTER = re.compile(r"([fpm])(\d+)_([123])")
 _STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
 
@@ -136,7 +137,7 @@ def heading_of(text: str) -> Heading:
         else:
             name = name[: match.start()] + " " + stated + " " + name[match.end() :]
     if plain(unit) in LENGTHS:
-        name = _PLACE_OF_KISTLER.sub(r"COP\1\2", name) if _PLACE_OF_KISTLER.fullmatch(name) else name
+        name = _PLACE_OF_KISTLER.sub(r"\1COP\2\3", name) if _PLACE_OF_KISTLER.fullmatch(name) else name
     found = _heading(name, unit)
     of_marker = _COORDINATE.search(text) is not None and not _PLACES.isdisjoint(found.words.split())
     return replace(found, quantity="foreign") if of_marker else found

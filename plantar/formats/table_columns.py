@@ -170,11 +170,25 @@ def _repeated(
         if not np.array_equal(table[:, first], table[:, i], equal_nan=True):
             raise FormatError(
                 f"columns {first + 1} and {i + 1} have one name, {names[i]!r}, and different values; allowed: a name "
-                "for each, such as left 1, left 2 or FP1 Fz, FP2 Fz"
+                f"for each, such as left 1, left 2 or FP1 Fz, FP2 Fz{_map_of_plates(names)}"
             )
         copies.add(i)
         warnings.append(f"column {names[i]!r} is there twice with the same values: it counts once")
     return copies, {}
+
+
+def _map_of_plates(names: Sequence[str]) -> str:
+    """The map of columns whose names begin again for each plate, as BioWare writes them; else empty."""
+    letters = {"force": "F", "cop": "COP", "moment": "M"}
+    parts = [f"time={i + 1}" for i, name in enumerate(names) if time_unit(name) is not None][:1]
+    seen: list[str] = []
+    for i, name in enumerate(names):
+        heading = heading_of(name)
+        if heading.axis in ("x", "y", "z") and heading.quantity in letters and not (heading.side or heading.number):
+            what = f"{letters[heading.quantity]}{heading.axis}"
+            seen.append(what)
+            parts.append(f"FP{seen.count(what)} {what}={i + 1}")
+    return f': --columns "{", ".join(parts)}"' if "Fz" in seen else ""
 
 
 def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:

@@ -180,3 +180,16 @@ def test_places_of_a_plate_are_its_center_of_pressure_where_in_metres(tmp_path):
     path.write_text("Time [s]\tFx [N]\tFy [N]\tFz [N]\tAx [m]\tAy [m]\n" + rows([TIME, *[0 * TIME] * 2, RIGHT, *place]))
     walk = analyse(path, options=ReadOptions(side="right"))
     assert np.nanmax(walk.feet["right"].cop[:, 0]) == pytest.approx(0.5, abs=0.02)
+
+
+def test_the_printed_map_of_names_that_begin_again_for_each_plate_mends_it(tmp_path):
+    """BioWare's text of two plates: each has the same names."""
+    path = tmp_path / "plates.txt"
+    names = ["abs time (s)", *2 * ["Fx", "Fy", "Fz", "|Ft|", "Ax", "Ay"]]
+    units = ["s", *2 * ["N", "N", "N", "N", "m", "m"]]
+    of_feet = {"left": LEFT, "right": RIGHT}
+    columns = [c for s, f in of_feet.items() for c in (0 * f, AHEAD[s], f, f, 0.1 + 0 * f, 0.2 + 0.1 * (TIME % 1.0))]
+    path.write_text("BioWare\n" + "\n".join(map("\t".join, (names, units))) + "\n" + rows([TIME, *columns]))
+    walk = analyse(path, options=ReadOptions(columns=printed(path), plates=("left", "right")))
+    check(walk)
+    assert np.nanmax(walk.feet["left"].cop[:, 0]) == pytest.approx(0.1, abs=0.02)
