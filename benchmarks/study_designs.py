@@ -18,6 +18,7 @@ conditions that differ by chance, speed allowed for.
 import csv
 import hashlib
 import json
+import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -31,7 +32,6 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from plantar.bench.tables import made_on, markdown_table, write_rows
-from plantar.cli import app
 from plantar.gait.analysis.study.designs import Design, compare_levels
 from plantar.gait.analysis.study.one_against_group import deviation_of
 from plantar.gait.analysis.study.run_study import Study, run_study
@@ -231,8 +231,8 @@ def whole_draw(people: Sequence[Sequence[Walk]], seed: int, folder: Path) -> lis
                 pressure = np.clip(np.rint(walk.stack * of_steps[:, None, None, None]), 0, 255).astype(np.uint8)
                 np.savez(target / "pipeline_1.npz", pressure)
                 (target / "metadata.csv").write_text(walk.table.replace("\n1,C,", f"\n{person},{condition},"))
-    command = ["analyze", str(folder / "set"), "-o", str(folder / "out"), "--no-figures"]
-    app([*command, "--covariate", "walking_speed_m_s"], standalone_mode=False)
+    command = [sys.executable, "-m", "plantar", "analyze", str(folder / "set"), "-o", str(folder / "out")]
+    subprocess.run([*command, "--no-figures", "--covariate", "walking_speed_m_s"], check=True, capture_output=True)
     with (folder / "out" / "comparison.csv").open(newline="") as stream:
         measures = any(float(row["p_all"]) <= 0.05 for row in csv.DictReader(stream))
     (comparison,) = json.loads((folder / "out" / "study.json").read_text())["comparisons"]

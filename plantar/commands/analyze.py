@@ -390,7 +390,9 @@ def _analyze_study(
     text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
     end_command(summary, as_json, text + file_lines(files))
     missed = [f"not measured: {name}: {why}" for name, why in summary["errors"].items()]
-    for note in () if as_json else (*summary["notes"], *missed):
+    lines = ((f"{c['a']} and {c['b']}", line) for c in summary["comparisons"] for line in (c["note"], *c["doubts"]))
+    compared = [f"{pair}: {line}" for pair, line in lines if line]
+    for note in () if as_json else (*summary["notes"], *compared, *missed):
         print_note(note)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from plantar.common.gravity import GRAVITY
 from plantar.gait.analysis.compare import unlike
 from plantar.gait.analysis.measures import COMPARED
-from plantar.gait.analysis.study.designs import Contrast, Design, any_differ, compare_levels
+from plantar.gait.analysis.study.designs import Contrast, Design, any_differ, compare_levels, explain_levels
 from plantar.gait.analysis.study.measured_table import (
     Cell,
     Foot,
@@ -119,6 +119,7 @@ def compare_conditions(
     every = levels
     chosen, levels, within, notes = _chosen(cells, levels)
     doubts += [f"{name} has too few participants and is left out" for name in every if name not in levels]
+    doubts += _left_out(cells, chosen, levels, within)
     if notes:
         names = combinations(levels, 2)
         return [Comparison(*pair, False, {}, note=n, factor=factor) for pair, n in zip(names, notes, strict=True)]
@@ -147,6 +148,17 @@ def _chosen(cells: Sequence[Cell], levels: list[str]) -> tuple[list[Cell], list[
     return [], levels, False, notes
 
 
+def _left_out(cells: Sequence[Cell], chosen: Sequence[Cell], levels: Sequence[str], within: bool) -> list[str]:
+    """A line on participants of the compared levels who are not in the comparison."""
+    kept = {cell.participant for cell in chosen}
+    lost = list(dict.fromkeys(c.participant for c in cells if c.level in levels and c.participant not in kept))
+    if not lost:
+        return []
+    names = ", ".join(lost[:5]) + (" and others" if len(lost) > 5 else "")
+    why = "not in every level" if within else "in several levels"
+    return [f"{len(lost)} participant(s) are {why} and left out: {names}"]
+
+
 def _fuller(people: Mapping[str, Mapping[str, Cell]], levels: Sequence[str]) -> list[list[str]]:
     """Levels to compare: all, then without that of the fewest participants, and so on."""
     counts = {level: sum(level in own for own in people.values()) for level in levels}
@@ -172,6 +184,9 @@ def _compared(
         np.array([[cell.covariate(name) for name in covariates] for cell in cells]).reshape(len(cells), -1),
         within,
     )
+    if covariates and explain_levels(design):
+        note = f"{' and '.join(covariates)} alone shows which level it is: no difference is left when it is allowed for"
+        return [Comparison(a, b, within, {}, note=note, factor=factor) for a, b in combinations(levels, 2)]
     keys = measure_keys(cells)
     effects, omnibus = _effects(means(cells, keys), keys, design, margin_percent)
     unit, curves = mean_curves(cells)

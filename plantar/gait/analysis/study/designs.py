@@ -221,6 +221,21 @@ def any_differ(values: NDArray[np.float64], design: Design, most: int = PERMUTAT
     return Omnibus(observed, each / len(largest), _shares(largest, observed), freedom)
 
 
+def explain_levels(design: Design) -> bool:
+    """Returns whether covariates and constants alone show a level's rows, so that nothing is left of its effect.
+
+    Example:
+        >>> who, level = np.divmod(np.arange(8), 2)
+        >>> explain_levels(Design(who, level, level[:, None] + 3.0, within=True))
+        True
+    """
+    of_level = (design.level[:, None] == np.unique(design.level)).astype(float)
+    of_level -= of_level.mean(axis=0)
+    q = design.nuisance
+    left = of_level - q @ (q.T @ of_level)
+    return bool(((left**2).sum(axis=0) <= 1e-12 * (of_level**2).sum(axis=0)).any())
+
+
 class _Pair:
     """t of two levels of a design, of residuals of all its rows in any order.
 

@@ -79,9 +79,14 @@ def check_names(results: Sequence[RecordingResult], factors: Sequence[str], cova
     feet = list(feet_of(results))
     columns = dict.fromkeys(name for r in results for name in r.who.more)
     for factor in factors:
-        if feet and not any(level_of(foot, factor) for foot in feet):
+        found = list(dict.fromkeys(level for foot in feet if (level := level_of(foot, factor))))
+        if feet and factor == "affected" and not found and any(name in columns for name in _AFFECTED):
+            raise InputError("--factor affected: no recording's affected side is left or right; allowed: these")
+        if feet and not found:
             names = ", ".join(dict.fromkeys([*_OWN, *columns]))
             raise InputError(f"--factor {factor}: no recording has it; allowed: {names}")
+        if feet and len(found) < 2:
+            raise InputError(f"--factor {factor}: all of it is {found[0]!r}; allowed: two levels or more")
     for covariate in covariates:
         if feet and not any(np.isfinite(_covariate(foot, covariate)) for foot in feet):
             known = dict.fromkeys([*columns, "mass_kg", "foot_length_m", *(k for r in results for k in r.walk)])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.errors import InputError
 from plantar.gait.analysis.study.measured_table import Foot, cells_of, feet_of, level_of, measure_keys
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.statistics import NORMAL_95, student_quantile
@@ -201,7 +202,8 @@ def agreements(results: Sequence[RecordingResult], column: str) -> tuple[tuple[s
     """
     devices = list(dict.fromkeys(level_of(foot, column) for foot in feet_of(results) if level_of(foot, column)))
     if len(devices) != 2:
-        return ("", ""), {}
+        names = ", ".join(devices[:8]) or "none"
+        raise InputError(f"--devices {column}: it names {names}; allowed: a column that names two devices")
     groups: dict[tuple[str, str], dict[str, list[RecordingResult]]] = {}
     for result in dict.fromkeys(r for r, _ in feet_of(results)):
         level = level_of(_first(result), column)

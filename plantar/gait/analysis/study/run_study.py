@@ -189,10 +189,11 @@ class Study:
 
     def summary(self) -> dict[str, Any]:
         """Study as plain values of study.json."""
+        chosen = {*self.plan.factors, *self.plan.covariates, self.plan.devices}
         return {
             "recordings": len(self.results),
             "measured": sum(not r.error for r in self.results),
-            "notes": not_read({name: "" for r in self.results for name in r.who.more}),
+            "notes": not_read({name: "" for r in self.results for name in r.who.more if name not in chosen}),
             "errors": {r.who.file: r.error for r in self.results if r.error},
             "participants": len({r.who.participant for r in self.results if not r.error}),
             "conditions": list(dict.fromkeys(r.who.condition for r in self.results if r.who.condition)),

@@ -93,7 +93,7 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
     reach = student_quantile(0.5 + 0.5 * _CONFIDENCE, max(freedom, 1.0)) * error
     least = _SPREAD * max(abs(float(a.mean())), abs(float(b.mean())))
     size = correction * difference / pooled if pooled > least else math.nan
-    half = student_quantile(0.5 + 0.5 * _CONFIDENCE, 1e6) * math.sqrt(scale + size**2 * weight)
+    half = NORMAL_95 * math.sqrt(scale + size**2 * weight)
     means = float(a.mean()), float(b.mean())
     return Effect(
         paired,
@@ -125,7 +125,7 @@ def adjusted(effect: Effect, difference: float, error: float, freedom: float) ->
     scale = effect.effect_size / effect.difference if effect.difference else math.nan
     size = difference * scale
     weight = 1.0 / (2.0 * (effect.n_a if effect.paired else effect.n_a + effect.n_b))
-    half = student_quantile(0.5 + 0.5 * _CONFIDENCE, 1e6) * math.sqrt((scale * error) ** 2 + size**2 * weight)
+    half = NORMAL_95 * math.sqrt((scale * error) ** 2 + size**2 * weight)
     return replace(
         effect,
         difference=difference,

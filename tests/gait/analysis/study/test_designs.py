@@ -182,6 +182,36 @@ def test_the_heaviest_cluster_of_a_map_is_the_one_that_is_found_in_it_alone():
     assert clusters.heaviest(maps, 1.5) == pytest.approx(alone, rel=1e-12)
 
 
+@pytest.mark.parametrize("within", [True, False])
+def test_an_f_with_a_covariate_is_that_of_two_models_by_least_squares(within):
+    random = seeded(f"f of models {within}")
+    design = design_of(3, within)
+    speed = random.normal(1.2, 0.1, len(design.level)) + 0.05 * design.level
+    own = Design(design.participant, design.level, speed[:, None], within)
+    values = random.normal(size=len(speed)) + 4.0 * speed + 0.5 * design.level
+    constants = (own.participant[:, None] == np.unique(own.participant)).astype(float)
+    smaller = np.column_stack([constants if within else np.ones(len(speed)), speed])
+    larger = np.column_stack([smaller, design.level[:, None] == [1, 2]])
+    left = [((values - x @ np.linalg.lstsq(x, values, rcond=None)[0]) ** 2).sum() for x in (smaller, larger)]
+    rest = len(speed) - larger.shape[1]
+    found = any_differ(values[:, None], own, most=50)
+    assert found.f[0] == pytest.approx((left[0] - left[1]) / 2 / (left[1] / rest), rel=1e-9)
+    assert found.freedom == (2, rest)
+
+
+def test_one_against_a_group_is_each_person_against_all_others():
+    random = seeded("each")
+    everyone = random.normal(size=(21, 4)) + 3.0
+    found = deviation_of(everyone[0], everyone[1:])
+    t = []
+    for k in range(21):
+        others = np.delete(everyone, k, axis=0)
+        t.append((everyone[k] - others.mean(axis=0)) / (others.std(axis=0, ddof=1) * np.sqrt(21 / 20)))
+    assert found.t == pytest.approx(t[0], rel=1e-9)
+    largest = np.abs(t).max(axis=1)
+    assert found.p_all == pytest.approx((largest[:, None] >= np.abs(t[0]) * (1 - 1e-12)).mean(axis=0), rel=1e-9)
+
+
 def test_one_against_a_group_errs_in_5_of_100():
     """A person like the 19 of the group: a probability of 1 in 20 by construction, in any of many values."""
     random = seeded("one")

@@ -23,7 +23,7 @@ def two_levels(a, b, paired, places=None, permutations=2000) -> Contrast:
 @pytest.mark.parametrize("probability", [0.5, 0.8, 0.95, 0.975, 0.999])
 def test_quantiles_of_student(freedom, probability):
     assert student_quantile(probability, freedom) == pytest.approx(
-        stats.t.ppf(probability, freedom), rel=1e-5, abs=1e-9
+        stats.t.ppf(probability, freedom), rel=1e-9, abs=1e-9
     )
 
 
@@ -32,10 +32,25 @@ def test_intervals_of_a_difference_are_students_and_welchs():
     a, b = random.normal(10.0, 1.0, 9), random.normal(11.0, 2.0, 14)
     effect = effect_of(a, b, False, 1.0, 1.0)
     welch = stats.ttest_ind(b, a, equal_var=False).confidence_interval()
-    assert (effect.low, effect.high) == pytest.approx((welch.low, welch.high), rel=1e-5)
+    assert (effect.low, effect.high) == pytest.approx((welch.low, welch.high), rel=1e-9)
     pairs = effect_of(a, b[:9], True, 1.0, 1.0)
     student = stats.ttest_rel(b[:9], a).confidence_interval()
-    assert (pairs.low, pairs.high) == pytest.approx((student.low, student.high), rel=1e-5)
+    assert (pairs.low, pairs.high) == pytest.approx((student.low, student.high), rel=1e-9)
+
+
+@pytest.mark.parametrize("paired", [True, False])
+def test_an_effect_size_is_that_of_hedges_and_olkin(paired):
+    random = np.random.default_rng(13)
+    a, b = random.normal(10.0, 1.0, 9), random.normal(11.0, 1.6, 9)
+    found = effect_of(a, b, paired, 1.0, 1.0)
+    pooled = np.sqrt((a.var(ddof=1) + b.var(ddof=1)) / 2.0)
+    freedom = 8 if paired else 16
+    size = (1.0 - 3.0 / (4.0 * freedom - 1.0)) * (b.mean() - a.mean()) / pooled
+    variance = (b - a).var(ddof=1) / 9 / pooled**2 + size**2 / 18 if paired else 2.0 / 9.0 + size**2 / 36
+    reach = stats.norm.ppf(0.975) * np.sqrt(variance)
+    assert (found.effect_size, found.effect_low, found.effect_high) == pytest.approx(
+        (size, size - reach, size + reach), rel=1e-9
+    )
 
 
 @pytest.mark.parametrize("paired", [True, False])

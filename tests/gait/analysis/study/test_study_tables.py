@@ -254,3 +254,38 @@ def test_processes_measure_what_one_does(planted, tmp_path):
 def test_options_that_make_no_sense_are_refused(options, message):
     with pytest.raises(InputError, match=message):
         StudyOptions(**options)
+
+
+def test_an_unbalanced_mixed_model_with_a_covariate_is_that_of_its_likelihood():
+    """Restricted likelihood of the covariance of all steps, by another search; people lack levels and steps."""
+    pytest.importorskip("statsmodels")
+    from scipy.optimize import minimize
+
+    from plantar.gait.analysis.study.mixed_models import fit_mixed
+
+    random = seeded("unbalanced")
+    cells = [(who, level) for who in range(9) for level in range(3) if (who, level) not in ((2, 1), (5, 2))]
+    who, level = np.repeat(np.array(cells), random.integers(3, 8, len(cells)), axis=0).T
+    speed = random.normal(1.2, 0.1, len(who))
+    of_cell = who * 3 + level
+    values = 5.0 * speed + 0.7 * level + random.normal(0.0, 1.0, 9)[who] + random.normal(0.0, 0.5, 27)[of_cell]
+    values = values + random.normal(0.0, 0.4, len(who))
+    x = np.column_stack([np.ones(len(who)), level == 1, level == 2, speed]).astype(float)
+    alike = [(each[:, None] == each).astype(float) for each in (who, of_cell)]
+
+    def solved(logs):
+        people, levels, steps = np.exp(2.0 * np.asarray(logs))
+        inverse = np.linalg.inv(people * alike[0] + levels * alike[1] + steps * np.eye(len(who)))
+        information = x.T @ inverse @ x
+        beta = np.linalg.solve(information, x.T @ inverse @ values)
+        rest = values - x @ beta
+        loss = -np.linalg.slogdet(inverse)[1] + np.linalg.slogdet(information)[1] + rest @ inverse @ rest
+        return loss, beta, information
+
+    best = minimize(lambda logs: solved(logs)[0], np.log([1.0, 0.5, 0.4]), method="Nelder-Mead", tol=1e-10)
+    _, beta, information = solved(best.x)
+    found = fit_mixed(values, level, who, speed[:, None])
+    assert found.levels == (1, 2)
+    assert found.differences == pytest.approx(beta[1:3], rel=1e-4)
+    assert found.errors == pytest.approx(np.sqrt(np.diag(np.linalg.inv(information)))[1:3], rel=1e-4)
+    assert found.spreads == pytest.approx(np.exp(best.x), rel=1e-3)
