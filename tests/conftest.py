@@ -38,10 +38,6 @@ if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
 if kernels.problem and kernels.problem != "none of them is compiled":
     pytest.exit(kernels.form_text(), returncode=4)
 
-# Ten thousand tests are millions of objects that stay: looking through them for garbage again and again, while they
-# are collected, takes a third of that time.
-gc.disable()
-
 # For its doctests pytest loads a module from the source; a kernel that was not yet loaded would stay interpreted and
 # lack what compiled ones share among themselves.
 for kernel in kernels.KERNELS:
@@ -87,10 +83,19 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items.sort(key=lambda item: not item.path.relative_to(config.rootpath).as_posix().startswith(SLOW))
 
 
-def pytest_collection_finish() -> None:
-    """Look for garbage again, but not among what was collected."""
-    gc.freeze()
-    gc.enable()
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """Look for no garbage while tests are collected, and later not among them.
+
+    Ten thousand tests are millions of objects that stay; looking through them again and again takes a third of the
+    time.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.hookimpl(optionalhook=True)
