@@ -1,12 +1,13 @@
 """The loop of every run: sensors, control and physics in turn."""
 
+import gc
 import math
 import os
 import time as clock
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,19 @@ class Result:
     ticks_us: list[float]
     wall_time: float
     overrun: tuple[float, float] | None
+
+
+@contextmanager
+def _without_long_collections() -> Iterator[None]:
+    """Garbage is looked for among what comes later only: among all that was set up it takes ten control periods."""
+    if gc.get_freeze_count():  # by the caller, whose it stays
+        yield
+        return
+    gc.freeze()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
 
 
 class Run(ABC):
@@ -106,6 +120,7 @@ class Run(ABC):
             progress: Called ten times a second with fraction and text.
         """
         with ExitStack() as files:
+            files.enter_context(_without_long_collections())
             if record is not None:
                 self.open_log(Path(record), files)
             return self.summary(self._loop(None if video is None else self.open_film(Path(video), files), progress))

@@ -1,6 +1,8 @@
 """Short walks, judged by MuJoCo's truth."""
 
 import json
+import subprocess
+import sys
 from shutil import copytree
 
 import numpy as np
@@ -236,3 +238,27 @@ def test_a_controller_that_raises_has_not_completed():
     assert reason["criterion"] == "controller_error"
     assert reason["value"] == run.controller.raised[0] > 10
     assert "the last: AttributeError: 'NoneType'" in reason["text"]
+
+
+def test_a_run_looks_for_garbage_among_its_own_objects_only():
+    """A full collection among all that is imported takes 50 ms and more: ten control periods."""
+    code = (
+        "import gc\n"
+        "from plantar.sim.run.runner import Simulation\n"
+        "from plantar.sim.run.scene import load_scene\n"
+        "class Looked(Simulation):\n"
+        "    end = 0.05\n"
+        "    def control(self):\n"
+        "        seen.append((gc.get_freeze_count(), len(gc.get_objects())))\n"
+        "        return super().control()\n"
+        "seen = []\n"
+        "Looked(load_scene('flat'), 0).run()\n"
+        "frozen, own = seen[-1]\n"
+        "assert frozen > 20 * own, seen[-1]\n"
+        "assert gc.get_freeze_count() == 0\n"
+        "gc.freeze()\n"
+        "Looked(load_scene('flat'), 0).run()\n"
+        "assert gc.get_freeze_count() > 0  # what the caller froze stays so\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
