@@ -168,12 +168,18 @@ def one_against_group(
 ) -> OneAgainstGroup:
     """Returns comparison of a participant with the others of a study, or with those of one condition or group.
 
+    A participant who has recordings of that condition is compared in these alone.
+
     InputError if the participant is unknown, or the group has fewer than five people.
     """
     own = [foot for foot in feet_of(results) if foot[0].who.participant == participant]
     if not own:
         names = ", ".join(dict.fromkeys(r.who.participant for r, _ in feet_of(results)))
         raise InputError(f"--patient {participant}: no measured recording; allowed: {names[:300]}")
+    # Like with like: somebody who has the group's condition, too, is compared in that one.
+    alike = [foot for foot in own if foot[0].who.condition == group]
+    mixed = list(dict.fromkeys(foot[0].who.condition for foot in own)) if group and not alike else []
+    own = alike or own
     others = [
         foot
         for foot in feet_of(results)
@@ -187,6 +193,8 @@ def one_against_group(
             f"{FEWEST_IN_GROUP} or more ({ENOUGH_IN_GROUP} for curves and maps); conditions: {conditions}"
         )
     notes = []
+    if len(mixed) > 1:
+        notes.append(f"values of {participant} are means of {' and '.join(mixed)}, none of which is {group}")
     if len(known) < ENOUGH_IN_GROUP:
         notes.append(
             f"the group has {len(known)} people: that all measures together are allowed for takes {ENOUGH_IN_GROUP} or "

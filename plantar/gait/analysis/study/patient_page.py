@@ -47,7 +47,9 @@ def _words(one: OneAgainstGroup) -> str:
     found = differing(one)
     parts = []
     if found:
-        parts.append(f"<p>Of {count} measures of both feet, {len(found)} are unlike those of the group:</p>")
+        feet = "both feet" if len(one.measures) > 1 else f"the {next(iter(one.measures))} foot"
+        verb = "is" if len(found) == 1 else "are"
+        parts.append(f"<p>Of {count} measures of {feet}, {len(found)} {verb} unlike those of the group:</p>")
         parts.append("<ul>" + "".join(f"<li>{_sentence(*item)}</li>" for item in found[:_NAMED]) + "</ul>")
         if len(found) > _NAMED:
             parts.append(f"<p>{len(found) - _NAMED} more are marked in the tables.</p>")
@@ -119,7 +121,7 @@ def _table(one: OneAgainstGroup, side: Any) -> str:
         "p",
         "p (all)",
     )
-    caption = f"Means over steps and recordings; {one.n} people. p (all) allows for all measures of both feet."
+    caption = f"Means over steps and recordings; {one.n} people. p (all) allows for all measures of all feet."
     return table(f"{side} foot", caption, head, rows)
 
 

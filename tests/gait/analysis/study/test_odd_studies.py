@@ -7,6 +7,7 @@ from plantar import InputError
 from plantar.gait.analysis.study.compare_conditions import compare_conditions
 from plantar.gait.analysis.study.measured_table import check_names
 from plantar.gait.analysis.study.mixed_models import mixed_effects
+from plantar.gait.analysis.study.one_against_group import one_against_group
 from plantar.gait.analysis.study.one_recording import RecordingResult
 from plantar.gait.analysis.study.participants import Participation
 from plantar.gait.analysis.study.reliability import agreements
@@ -92,3 +93,13 @@ def test_a_mixed_model_of_steps_that_do_not_vary_is_no_number():
     found = mixed_effects(study(), "condition")
     assert [effect.measure for effect in found] == ["peak_force_N"]
     assert found[0].note
+
+
+def test_a_patient_is_compared_in_the_groups_own_condition():
+    results = study()
+    found = one_against_group(results, "p7", "硬い靴")
+    (own,) = (r for r in results if r.who.participant == "p7" and r.who.condition == "硬い靴")
+    assert found.measures["left"]["peak_force_N"].value == own.feet["left"]["peak_force_N"]
+    assert not any("means of" in note for note in found.notes)
+    others = one_against_group([*results, *study(("a", "b"), ("new",))], "new", "硬い靴")
+    assert any("values of new are means of a and b, none of which is 硬い靴" in note for note in others.notes)
