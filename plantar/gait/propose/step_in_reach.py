@@ -80,9 +80,10 @@ class StepInReach:
         into_sole = foot.rotation_sole_to_world[:2, :2].T
         step = into_sole @ (planned.position[:2] - foot.position[:2])
         less = -here.spare_reach(into_sole @ (stands.vrp - foot.position[:2]), step, stands.rise)
+        less = min(less, self._most, step.item(0))  # a step to the side, or back, is not shortened ahead
         if phase.step + 1 < tick.plan.count:
             later = into_sole @ (tick.plan.foothold(phase.step + 1).position[:2] - planned.position[:2])
-            less = min(less, self._most, there.spare_reach(self._middles[planned.side], later))
+            less = min(less, there.spare_reach(self._middles[planned.side], later))
         if less < self._least:
             return None
         x, y = (planned.position[:2] - less * foot.rotation_sole_to_world[:2, 0]).tolist()

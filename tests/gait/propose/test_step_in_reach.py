@@ -65,6 +65,16 @@ def test_a_step_is_shortened_by_so_much_at_most(plan_of, tick_at):
     assert planned.x - change.foothold.x == pytest.approx(BODY / 20)
 
 
+def test_the_last_step_that_closes_the_feet_stays(plan_of, tick_at):
+    plan = plan_of(3, length=0.2)
+    assert swung(proposer_with(LEG), plan, tick_at, found_in(plan, 1, 0.1))[1] is None
+
+
+def test_a_step_to_the_side_stays(plan_of, tick_at):
+    plan = plan_of(6, length=0.0, sideways=0.1)
+    assert swung(proposer_with(LEG), plan, tick_at, found_in(plan, 1, 0.05))[1] is None
+
+
 @pytest.mark.parametrize("why", ["whole", "in reach", "another step", "no knee", "next out of reach"])
 def test_other_steps_stay(why, plan_of, tick_at):
     plan = plan_of(6, length=0.2)
