@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
-from plantar.formats.cells_of_foot import cells_of_foot, feet_in_turns, unit_of_values
+from plantar.formats.cells_of_foot import cells_of_foot, feet_in_turns, halves, unit_of_values
 from plantar.formats.column_map import proposed_map
 from plantar.formats.field_names import Heading, heading_of, spelled_out
 from plantar.formats.format import ReadOptions
@@ -59,6 +59,7 @@ def recording_of_columns(
             f"the table has {len(table)} row(s) of numbers, which is no recording over time; allowed: a row a frame"
         )
     names = spelled_out(names) if names else _laid_out(table, options, warnings)
+    options = replace(options, side=options.side or side_of(facts.get("side", ""), facts.get("foot", "")))
     _refuse_measures(names)
     propose = partial(proposed_map, names, table)
     of_side = side_column(names, table)
@@ -95,9 +96,7 @@ def recording_of_columns(
     raw = False
     if is_force_table([headings[i] for i in columns]):
         named = {i: headings[i] for i in columns}
-        stated = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
-        given = replace(options, side=stated)
-        feet, every, kind, raw = feet_of_forces(table, named, rate, given, facts.get("unit"), warnings)
+        feet, every, kind, raw = feet_of_forces(table, named, rate, options, facts.get("unit"), warnings)
         used = {i for i in columns if headings[i].quantity in ("force", "cop", "moment", "place")}
         _report_left_out([names[i] for i in columns if i not in used], warnings, "load")
     else:
@@ -379,8 +378,13 @@ def _cells(
     parts: list[tuple[Side, NDArray[np.float64]]]
     parts = [(side, _taken(table, by_side[side])) for side in SIDES if side in by_side]
     if not parts:
-        stated_side = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
-        parts = _of_no_named_foot(table, nameless, stated_side, options, propose, warnings)
+        values = _taken(table, nameless)
+        if options.side is None and options.layout is None and feet_in_turns(values):
+            raise FormatError(
+                f"the two halves of {len(nameless)} cells carry load in turns, as two feet do, and name none; allowed: "
+                f"names such as left 1, or which is which: {propose()} (--side, if they are one foot's)"
+            )
+        parts = halves(values, options, warnings)
     feet = {}
     for side, part in parts:
         ids = [n for i in by_side.get(side, nameless) if (n := headings[i].number) is not None]
@@ -397,30 +401,3 @@ def _refuse_signs(values: NDArray[np.float64]) -> None:
             f"the cells go from {low:.4g} to {high:.4g}, as forces and moments of a plate do and no cells; allowed: "
             "names such as FP1 Fx, FP1 Fy, FP1 Fz, FP1 Mx, or which is which with --columns"
         )
-
-
-def _of_no_named_foot(
-    table: NDArray[np.float64],
-    cells: list[int],
-    stated: Side | None,
-    options: ReadOptions,
-    propose: Callable[..., str],
-    warnings: list[str],
-) -> list[tuple[Side, NDArray[np.float64]]]:
-    """Feet of cells that name none: two of the layout's, else the stated one, else the left one."""
-    values = _taken(table, cells)
-    layout = options.layout
-    if layout is not None and len(cells) == 2 * len(layout):
-        warnings.append(
-            "there are twice the layout's cells: the first half is taken as the left foot (--columns overrides)"
-        )
-        return [("left", values[:, : len(layout)]), ("right", values[:, len(layout) :])]
-    if stated is None and layout is None and feet_in_turns(values):
-        raise FormatError(
-            f"the two halves of {len(cells)} cells carry load in turns, as two feet do, and name none; allowed: names "
-            f"such as left 1, or which is which: {propose()} (--side, if they are one foot's)"
-        )
-    if stated is None:
-        stated = "left" if layout is None else layout.side
-        warnings.append(f"the file does not state which foot it is: taken as the {stated} one (--side overrides)")
-    return [(stated, values)]
