@@ -57,7 +57,9 @@ def broken_links(page: Path) -> list[str]:
     return [link for link in files if not (page.parent / link).exists()]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize(
+    "command", [pytest.param(name, marks=[pytest.mark.long] * (name in _SLOW[:2])) for name in COMMANDS]
+)
 def test_any_name_is_read_as_a_plain_one(command, contents, tmp_path, monkeypatch, quick_figures):
     """From the folder of the files, so that the name is all of the path, into a folder of the same name."""
     monkeypatch.chdir(tmp_path)
