@@ -8,6 +8,7 @@ from urllib.parse import quote
 
 from plantar.common.atomic import write_text
 from plantar.common.pages.page import Section, page, row, table
+from plantar.common.sides import SIDES
 
 _ABOUT = {
     "report.html": "figures and measures, with a player of the frames",
@@ -24,8 +25,28 @@ _ABOUT = {
     "summary.json": "what the true state shows of the run",
     "check.json": "whether the shoe prints, fits and holds",
     "parts.csv": "what to buy",
+    "wiring.csv": "which cell is wired to which",
+    "harness.csv": "leads to solder, with pins, colours and lengths",
+    "nets.csv": "every pin of every net",
+    "pressure.png": "largest pressure on each foot, with the paths of the CoP",
+    "regions.png": "regions of each foot",
+    "force.png": "force on each foot over time",
+    "steps.png": "force of the steps, one over the other",
+    "symmetry.png": "left against right",
+    "wrench.png": "forces and moments of the soles over time",
+    "summary.png": "one sheet of the main measures",
     "run.mcap": "the recording; Foxglove opens it",
 }
+_BEGINNINGS = {
+    "layout": "places and shapes of the taxels",
+    "pad": "the soft pad, to cut or print",
+    "mould": "mould to cast the pad in",
+    "assembly": "print, cells and pad in their places",
+    "drawing": "drawing with sizes and tolerances",
+    "picture": "the shoe from above, from below and with its pad",
+    "cells": "outlines of the cells, to cut or etch",
+}
+"""Of files whose names end in a side."""
 _ENDINGS = {
     ".stl": "mesh to print",
     ".3mf": "mesh to print, with units",
@@ -87,8 +108,8 @@ def _is_twin(name: str, files: Sequence[str]) -> bool:
 
 def _about(name: str, files: Sequence[str]) -> str:
     path = Path(name)
-    layout = path.name.startswith("layout_")
-    text = "places and shapes of the taxels" if layout else _ABOUT.get(path.name, _ENDINGS.get(path.suffix, ""))
+    known = _ABOUT | {f"{name}_{side}": text for name, text in _BEGINNINGS.items() for side in SIDES}
+    text = known.get(path.name, known.get(path.stem, _ENDINGS.get(path.suffix, "")))
     vector = f"{name[:-4]}.svg"
     if path.suffix == ".png" and vector in files:
         return f'{text}, also as <a href="{quote(os.fsencode(vector))}">SVG</a>'
