@@ -21,7 +21,7 @@ PURPOSES = {
     "study": "mixed models and workbooks of a study",
     "parquet": "plantar analyze --parquet: steps of a study as Parquet",
     "warp": "skin in many worlds of MuJoCo Warp at once",
-    "gym": "environments for learning, PlantarWalk-v0",
+    "gym": 'environments for learning: gymnasium.make("plantar.sim.environments:PlantarWalk-v0")',
     "cluster": "plantar sweep --scheduler: workers on other machines",
 }
 """What each extra is for."""
