@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import FormatError
+from plantar.errors import FormatError, InputError
 
 LARGE = 100_000_000
 """Bytes from which a table is kept in a file: smaller ones are quicker in memory."""
@@ -51,6 +51,7 @@ def put_rows(values: NDArray[np.float64], first: int, block: NDArray[np.float64]
     """Set rows of a table `values` (n, k) from the `first` on to a `block` (m, k).
 
     Tables in files are written, not assigned: a page that is assigned to is first read from the file, or cleared.
+    InputError where the disk has no room.
     """
     pages = _mapping(values)
     if pages is None or not values.flags.c_contiguous or not _MAY_WRITE:
@@ -59,7 +60,13 @@ def put_rows(values: NDArray[np.float64], first: int, block: NDArray[np.float64]
     at = values.ctypes.data - pages.address + first * values.shape[1] * 8
     left = memoryview(np.ascontiguousarray(block, dtype=float).tobytes())
     while len(left):
-        written = os.pwrite(pages.file, left, at)
+        try:
+            written = os.pwrite(pages.file, left, at)
+        except OSError as error:
+            raise InputError(
+                f"no room in {tempfile.gettempdir()} for a table of up to {values.nbytes / 1e6:.0f} MB "
+                f"({error.strerror}); free some, or name another folder by TMPDIR"
+            ) from None
         at += written
         left = left[written:]
 

@@ -1,10 +1,12 @@
 """Large tables of frames: what lies in a file behaves as what lies in memory."""
 
+import errno
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from plantar.errors import InputError
 from plantar.recordings import frame_table as module
 from plantar.recordings.frame_table import FrameTable, blocks_of_frames, column_extremes, let_go, room, scale_frames
 
@@ -29,6 +31,19 @@ def test_a_table_keeps_its_numbers_wherever_it_lies(monkeypatch, large):
     with_zero = np.vstack([rows, np.zeros(7)])
     assert low.tolist() == np.nanmin(with_zero, axis=0).tolist()
     assert high.tolist() == np.nanmax(with_zero, axis=0).tolist()
+
+
+@pytest.mark.skipif(
+    "not hasattr(__import__('os'), 'pwrite')", reason="tables are assigned where files cannot be written"
+)
+def test_a_full_disk_is_reported(monkeypatch):
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(module, "LARGE", 0)
+    monkeypatch.setattr(module.os, "pwrite", full)
+    with pytest.raises(InputError, match=r"no room in .* \(No space left on device\); free some, or name another"):
+        FrameTable(2, 3).add(np.ones((3, 2)))
 
 
 @pytest.mark.skipif("not __import__('sys').platform.startswith('linux')", reason="reads /proc")
