@@ -278,7 +278,7 @@ def write_page(rows: list[dict[str, str]]) -> None:
         shown = [f"{count} ({100.0 * count / draws:.1f} %)" for count in counts]
         lines.append((row["what"], draws, *shown, *["-"] * (3 - len(shown))))
     totals = [f"{count} of {draws} ({100.0 * count / max(1, draws):.2f} %)" for count, draws in sums.tolist()]
-    whole = [row["found"].split() for row in rows if row["part"] == "whole"]
+    whole = [(row["draws"], *row["found"].split()) for row in rows if row["part"] == "whole"]
     lines.append(("all", sum(int(row["draws"]) for row in designs), *totals))
     text = [
         "# Studies of eight designs, without and with a difference",
@@ -292,9 +292,9 @@ def write_page(rows: list[dict[str, str]]) -> None:
         markdown_table(("design", "draws", "measures", "curves (1D)", "maps (2D)"), lines),
         "",
         *(
-            f"Of {WHOLE_DRAWS} whole studies, from files through the command, {PEOPLE} people and {TRIALS} trials in\n"
+            f"Of {draws} whole studies, from files through the command, {PEOPLE} people and {TRIALS} trials in\n"
             f"each of two conditions, speed allowed for: {measures} in measures, {curves} in curves, {maps} in maps.\n"
-            for measures, curves, maps in whole
+            for draws, measures, curves, maps in whole
         ),
         f"Studies of made footsteps, {PEOPLE} people and {TRIALS} trials: the last condition takes "
         f"{100 * (1 - _LEFT_HEEL):.0f} % off the pressure under the left heel and is walked faster; speed is allowed",

@@ -13,19 +13,18 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations, permutations, product
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.analysis.study.clusters import Clusters
+from plantar.gait.analysis.study.orders import blocks_of_orders
 from plantar.gait.analysis.study.statistics import student_quantile
 
 # Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation).
 PERMUTATIONS = 2000
-_SEED = 1
-_BLOCK = 2_000_000  # Values that are permuted together
 _SPREAD = 1e-10  # Share of a value below which differences are rounding
 _ROUNDING = 1e-9  # Share of a statistic that is rounding: a permuted one this much below the observed one equals it
 
@@ -63,6 +62,13 @@ class Design:
         else:
             constants = np.ones((len(self.level), 1))
         return _orthonormal(np.column_stack([constants, _scaled(self.covariates)]))
+
+    def orders(self, values: int, most: int) -> Iterator[NDArray[np.int64]]:
+        """Orders (b, r) of its rows, some at a time, by `blocks_of_orders`."""
+        groups = [np.arange(len(self.level))]
+        if self.within:
+            groups = [np.flatnonzero(self.participant == who) for who in np.unique(self.participant)]
+        return blocks_of_orders(self.level, groups, values, most)
 
     @property
     def beside_constants(self) -> NDArray[np.float64]:
@@ -213,7 +219,7 @@ def any_differ(values: NDArray[np.float64], design: Design, most: int = PERMUTAT
     observed = f_of(np.arange(len(values))[None])[0]
     each = np.zeros(observed.shape)
     tops = []
-    for block in _blocks(design, values.shape[1], most):
+    for block in design.orders(values.shape[1], most):
         f = f_of(block)
         each += (f >= observed * (1.0 - _ROUNDING)).sum(axis=0)
         tops.append(f.max(axis=1, initial=0.0))
@@ -374,7 +380,7 @@ def _permuted(
     reached = [np.zeros(t.shape) for t in observed]
     tops: list[NDArray[np.float64]] = []
     weights: list[NDArray[np.float64]] = []
-    for block in _blocks(design, residuals.values.shape[1], most):
+    for block in design.orders(residuals.values.shape[1], most):
         top = np.zeros(len(block))
         heaviest = np.zeros(len(block))
         for pair, t, count in zip(pairs, observed, reached, strict=True):
@@ -395,79 +401,3 @@ def _shares(permuted: NDArray[np.float64], observed: NDArray[np.float64]) -> NDA
     ordered = np.sort(permuted)
     below = np.searchsorted(ordered, observed * (1.0 - _ROUNDING), side="left")
     return np.asarray((len(ordered) - below) / len(ordered))  # 1 - 0.95 would be more than 0.05
-
-
-def _blocks(design: Design, values: int, most: int) -> Iterator[NDArray[np.int64]]:
-    """Row numbers (b, r) of permutations, the observed one first, some at a time."""
-    rows = len(design.level)
-    size = max(1, _BLOCK // (rows + values))
-    block: list[NDArray[np.int64]] = []
-    for order in _orders(design, most):
-        block.append(order)
-        if len(block) == size:
-            yield np.array(block)
-            block = []
-    if block:
-        yield np.array(block)
-
-
-def _orders(design: Design, most: int) -> Iterator[NDArray[np.int64]]:
-    """Every order of rows that gives other levels, or the observed one and drawn ones."""
-    rows = np.arange(len(design.level))
-    groups = [np.flatnonzero(design.participant == who) for who in np.unique(design.participant)]
-    groups = groups if design.within else [rows]
-    counts = [_arrangements(design.level[group]) for group in groups]
-    if math.prod(counts) <= most:
-        for choice in product(*(list(_all_orders(group, design.level)) for group in groups)):
-            order = rows.copy()
-            for group, chosen in zip(groups, choice, strict=True):
-                order[group] = chosen
-            yield order
-        return
-    random = np.random.default_rng(_SEED)
-    yield rows
-    same = len({len(group) for group in groups}) == 1
-    table = np.array(groups) if same else None
-    for _ in range(most - 1):
-        order = rows.copy()
-        if table is not None:
-            order[table.ravel()] = random.permuted(table, axis=1).ravel()
-        else:
-            for group in groups:
-                order[group] = random.permutation(group)
-        yield order
-
-
-def _arrangements(levels: NDArray[np.int64]) -> int:
-    _, counts = np.unique(levels, return_counts=True)
-    return math.factorial(len(levels)) // math.prod(math.factorial(int(n)) for n in counts)
-
-
-def _all_orders(group: NDArray[np.int64], level: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
-    """Orders of a group's rows, one for each way in which the levels may be given to the values."""
-    names, counts = np.unique(level[group], return_counts=True)
-    if len(group) == len(names):
-        yield from (np.array(order) for order in permutations(group.tolist()))
-        return
-    yield from _dealt(group, [(group[level[group] == name], int(n)) for name, n in zip(names, counts, strict=True)])
-
-
-def _dealt(group: NDArray[np.int64], places: Sequence[tuple[NDArray[np.int64], int]]) -> Iterator[NDArray[np.int64]]:
-    """Orders of a group whose rows are dealt to the places of each level."""
-    index = {int(row): i for i, row in enumerate(group)}
-
-    def deal(left: tuple[int, ...], depth: int) -> Iterator[dict[int, int]]:
-        if depth == len(places):
-            yield {}
-            return
-        own, count = places[depth]
-        for chosen in combinations(left, count):
-            rest = tuple(row for row in left if row not in chosen)
-            for more in deal(rest, depth + 1):
-                yield {**dict(zip(map(int, own), chosen, strict=True)), **more}
-
-    for dealt in deal(tuple(map(int, group)), 0):
-        order = group.copy()
-        for place, row in dealt.items():
-            order[index[place]] = row
-        yield order
