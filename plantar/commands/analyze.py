@@ -342,13 +342,15 @@ def _end(result: dict[str, Any], parts: dict[str, Any], output: Path, as_json: b
     result["files"] = with_folder_page(output, "Analysis", result["files"])
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
     end_command(result, as_json, text + file_lines(result["files"]))
+    written = {Path(name).name for name in result["files"]}
     for name, metrics in () if as_json else {"": result, **parts}.items():
         warnings = metrics["warnings"]
         about = f" of {name}" if name else ""
         for warning in warnings[:_NOTES]:
             print_note(f"note{about}: {warning}")
         if len(warnings) > _NOTES:
-            print_note(f"note{about}: {len(warnings) - _NOTES} more in metrics.json and report.html")
+            listed = [name for name in ("metrics.json", "report.html") if name in written]
+            print_note(f"note{about}: {len(warnings) - _NOTES} more in {' and '.join(listed)}")
 
 
 def _analyze_study(

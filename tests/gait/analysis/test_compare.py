@@ -75,6 +75,7 @@ def test_tables_alone_are_written(tmp_path, what, option):
     done = CliRunner().invoke(cli.app, ["analyze", *given, option, "-o", str(tmp_path / "out")])
     assert done.exit_code == 0, done.output
     assert {p.suffix for p in (tmp_path / "out").rglob("*") if p.is_file()} <= {".csv", ".json", ".npz"}
+    assert "report.html" not in done.stdout + done.stderr
 
 
 def test_other_sensors_are_told(tmp_path, layout):
