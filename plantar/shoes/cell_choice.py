@@ -1,19 +1,20 @@
 """Which cell that can be bought suits a foot and the weight of its robot.
 
 A cell must carry the load case within its range: beyond it a film or sheet reads the same whatever presses, so that the
-center of pressure is lost. Of those that carry it, one that sees the footprint comes before a few load cells, and of
-these the one whose center of pressure is off by the least.
+center of pressure is lost; and its lines must find ways. Of those that do, one that sees the footprint comes before a
+few load cells, and of these the one whose center of pressure is off by the least.
 """
 
 from dataclasses import dataclass
 
 from plantar.errors import FootError
-from plantar.shoes.build import build_shoe
+from plantar.shoes.build import Shoe, build_shoe
 from plantar.shoes.cells.cell import Cell, built_in_cells, read_cell
 from plantar.shoes.checks.check import check_plan
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.strength import load_case
+from plantar.shoes.wiring.wired_shoe import wire_shoe
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ def choose_cell(foot: Foot, parameters: ShoeParameters | None = None) -> CellCho
     """
     p = parameters or ShoeParameters()
     mass = load_case(foot, p).mass
-    found: list[tuple[bool, float, str]] = []
+    found: list[tuple[bool, float, str, Shoe]] = []
     against = []
     for name in built_in_cells():
         cell = read_cell(name)
@@ -54,10 +55,17 @@ def choose_cell(foot: Foot, parameters: ShoeParameters | None = None) -> CellCho
             against.append(f"cell {name}: {first.name} is {first.value:g}, allowed {first.allowed}")
             continue
         assert build.cop is not None
-        found.append((cell.count > 0.0, build.cop.together, name))
+        found.append((cell.count > 0.0, build.cop.together, name, build.shoes[0]))
+    found.sort(key=lambda one: one[:3])
+    while found:
+        try:
+            wire_shoe(found[0][3], p)
+            break
+        except FootError as error:  # only now: finding all lines' ways takes longer than all that was checked before
+            against.append(f"cell {found.pop(0)[2]}: {error}")
     if not found:
         raise FootError(f"no cell that can be bought suits this foot and {mass:g} kg: {'; '.join(against)}")
-    _, off, name = min(found)
-    others = ", ".join(f"{other} ({far:g} mm)" for _, far, other in sorted(found)[1:])
+    _, off, name, _ = found[0]
+    others = ", ".join(f"{other} ({far:g} mm)" for _, far, other, _ in found[1:])
     text = f"cell {name} is chosen for {mass:g} kg: its center of pressure is within {off:g} mm (95 %)"
     return CellChoice(read_cell(name), (text + (f"; others that hold: {others}" if others else ""), *against))
