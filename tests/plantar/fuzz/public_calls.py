@@ -67,7 +67,7 @@ INNER: frozenset[str] = frozenset(
         *("calibration.SoleCalibration", "calibration.response"),
         *("calibration.LoopState", "calibration.LoopState.advance"),
         # Made and asked by the reader of walkways and by prints, with cells of the grid.
-        *(f"cell_grid.CellGrid{name}" for name in ("", ".cell_rings", ".groups", ".of_cells")),
+        *(f"cell_grid.CellGrid{name}" for name in ("", ".cell_rings", ".groups", ".of_cells", ".ends_of_rows")),
         "layout.SoleLayout.cell_rings",
         *("cell_patch.pressed_patch", "cell_patch.reach_of"),
         # Called by those that lay out cells, whose own calls hand it wrong outlines.
