@@ -14,7 +14,8 @@ from plantar.shoes.checks.check import check_plan
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.strength import load_case
-from plantar.shoes.wiring.wired_shoe import wire_shoe
+from plantar.shoes.wiring.flex_board import flex_board
+from plantar.shoes.wiring.nets import wiring_of
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def choose_cell(foot: Foot, parameters: ShoeParameters | None = None) -> CellCho
     found.sort(key=lambda one: one[:3])
     while found:
         try:
-            wire_shoe(found[0][3], p)
+            _find_ways(found[0][3], p)
             break
         except FootError as error:  # only now: finding all lines' ways takes longer than all that was checked before
             against.append(f"cell {found.pop(0)[2]}: {error}")
@@ -69,3 +70,10 @@ def choose_cell(foot: Foot, parameters: ShoeParameters | None = None) -> CellCho
     others = ", ".join(f"{other} ({far:g} mm)" for _, far, other, _ in found[1:])
     text = f"cell {name} is chosen for {mass:g} kg: its center of pressure is within {off:g} mm (95 %)"
     return CellChoice(read_cell(name), (text + (f"; others that hold: {others}" if others else ""), *against))
+
+
+def _find_ways(shoe: Shoe, parameters: ShoeParameters) -> None:
+    """FootError where a shoe's cells cannot be wired, or a line of its sheet finds no way."""
+    wiring = wiring_of(shoe, parameters)
+    if wiring is not None and wiring.circuit == "matrix":
+        flex_board(shoe, parameters)
