@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.common.gravity import GRAVITY
 from plantar.gait.analysis.steps.events import Contact
+from plantar.recordings.pressure_recording import true_runs
 
 SLOWEST_RATE = 50.0
 """Rate in Hz below which a swing of half a second has too few samples to be integrated."""
@@ -86,8 +87,7 @@ def _bridged(time: NDArray[np.float64], motion: NDArray[np.float64], known: NDAr
 
 def _gap(known: NDArray[np.bool_], most: float) -> bool:
     """Whether more frames in sequence than `most` are not known."""
-    ends = np.flatnonzero(np.diff(np.concatenate([[0], (~known).astype(int), [0]]))).reshape(-1, 2)
-    return bool((ends[:, 1] - ends[:, 0] > most).any())
+    return any(b - a > most for a, b in true_runs(~known))
 
 
 def _length(

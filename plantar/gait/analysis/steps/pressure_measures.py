@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.batch import support_polygons
+from plantar.gait.analysis.steps.segments import median_of_few
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.geometry.polygon import signed_margin
 from plantar.kernels.geometry import row_hulls
@@ -88,8 +89,8 @@ def region_measures(
     with np.errstate(invalid="ignore", divide="ignore"):
         impulse = load.integral(force)
         step = np.diff(load.time)
-        steps = np.sort(step[step > 0.0])
-        usual = 0.5 * float(steps[(len(steps) - 1) // 2] + steps[len(steps) // 2]) if len(steps) else 0.0
+        steps = step[step > 0.0].tolist()
+        usual = median_of_few(steps) if steps else 0.0
         contact = np.minimum(np.add.reduceat(on, load.starts, axis=0) * usual, time[:, None])
         out = {
             "peak_force_N": load.most(force),
