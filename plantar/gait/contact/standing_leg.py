@@ -12,7 +12,8 @@ shrinks as the robot stands higher and its knee comes back.
 import math
 from typing import NamedTuple
 
-_STRETCHED = 0.985  # of thigh and shank that a leg stretches to: the knee keeps 20 degrees from straight
+# Of thigh and shank that a leg stretches to, cos(10 degrees): the knee of equal ones keeps 20 degrees from straight.
+_STRETCHED = 0.985
 _HALVINGS = 12  # of the rise, whose largest is some hundredths of a leg: to a hundredth of a millimetre
 
 
