@@ -1,12 +1,12 @@
 """Pressure of contacts: peaks, integrals, areas, regions, and a robot's wrench."""
 
 from collections.abc import Sequence
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.batch import support_polygons
-from plantar.gait.analysis.steps.segments import median_of_few
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.geometry.polygon import signed_margin
 from plantar.kernels.geometry import row_hulls
@@ -90,7 +90,7 @@ def region_measures(
         impulse = load.integral(force)
         step = np.diff(load.time)
         steps = step[step > 0.0].tolist()
-        usual = median_of_few(steps) if steps else 0.0
+        usual = median(steps) if steps else 0.0
         contact = np.minimum(np.add.reduceat(on, load.starts, axis=0) * usual, time[:, None])
         out = {
             "peak_force_N": load.most(force),

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from statistics import median
 from typing import cast
 
 import numpy as np
@@ -58,16 +59,9 @@ def without_standing(contacts: Sequence[Contact], most: float = math.inf) -> lis
     out = list(contacts)
     for at, i in enumerate(known):
         around = [lasts[k] for k in known[max(0, at - _BESIDE) : at] + known[at + 1 : at + 1 + _BESIDE]]
-        if lasts[i] > (max(_LEAST, _LONG * median_of_few(around)) if len(around) >= 2 else most):
+        if lasts[i] > (max(_LEAST, _LONG * median(around)) if len(around) >= 2 else most):
             out[i] = replace(contacts[i], standing=True)
     return out
-
-
-def median_of_few(values: Sequence[float]) -> float:
-    """Median of some numbers, for a dozen of which numpy's own takes twenty times as long."""
-    ordered = sorted(values)
-    middle = len(ordered) // 2
-    return ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
 
 
 def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:

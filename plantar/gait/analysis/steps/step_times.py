@@ -6,6 +6,7 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from itertools import zip_longest
+from statistics import median
 from typing import cast
 
 import numpy as np
@@ -13,7 +14,6 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import Side
 from plantar.gait.analysis.steps.events import Contact, measured_spans
-from plantar.gait.analysis.steps.segments import median_of_few
 from plantar.recordings.pressure_recording import PressureRecording
 
 # A stride longer than so many times the median of this many before or after it holds a pause or an unrecorded step.
@@ -48,7 +48,7 @@ def longest_strides(contacts: Sequence[Contact]) -> list[float]:
     for stride in raw:
         last = first + math.isfinite(stride)
         beside = (known[max(0, first - _BESIDE) : first], known[last : last + _BESIDE])
-        out.append(PAUSE * max(median_of_few(part) for part in beside if part))
+        out.append(PAUSE * max(median(part) for part in beside if part))
         first = last
     return out
 
