@@ -27,7 +27,7 @@ from plantar.gait.analysis.pages.force_figures import stance_curves
 from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.study.participants import Participation
-from plantar.gait.analysis.study.stored_steps import StoredRows, in_columns
+from plantar.gait.analysis.study.stored_steps import StoredRows, in_lines
 from plantar.gait.analysis.subject import Subject
 from plantar.gait.analysis.summary import gait_of_feet
 from plantar.gait.analysis.walkway.measured_walkway import SENSOR, measure_walkway
@@ -277,13 +277,14 @@ def write_result(result: RecordingResult, path: Path) -> RecordingResult:
     plain = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ("curves", "maps", "rows")}
     parts = zip(_ARRAYS, (result.curves, result.maps), strict=True)
     arrays: dict[str, Any] = {f"{part}{side}": values for part, of in parts for side, values in of.items()}
-    texts = {"text": {**plain, "rows": len(result.rows)}, "rows": in_columns(result.rows)}
+    names, lines = in_lines(result.rows)
+    texts = {"text": {**plain, "rows": (names, len(lines))}, "rows": lines}
     stored: dict[str, Any] = {
         name: np.frombuffer(json.dumps(held, default=asdict).encode(), np.uint8) for name, held in texts.items()
     }
     with replacing(path) as temporary, temporary.open("wb") as stream:
         np.savez_compressed(stream, **stored, **arrays)
-    return replace(result, rows=StoredRows(path, len(result.rows)))
+    return replace(result, rows=StoredRows(path, names, len(lines)))
 
 
 def read_result(path: Path, key: str) -> RecordingResult | None:
@@ -294,7 +295,8 @@ def read_result(path: Path, key: str) -> RecordingResult | None:
             curves, maps = ({n[len(p) :]: held[n] for n in held.files if n.startswith(p)} for p in _ARRAYS)
             whole = "rows" in held.files
         plain |= {"who": Participation(**plain["who"])} | {k: tuple(plain[k]) for k in ("warnings", "sensor")}
-        plain["rows"] = StoredRows(path, int(plain["rows"]))
+        names, count = plain["rows"]
+        plain["rows"] = StoredRows(path, names, count)
         found = RecordingResult(**plain, curves=curves, maps=maps)
     except Exception:  # a file that was cut short may raise anything; measuring again is always right
         return None

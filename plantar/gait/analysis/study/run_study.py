@@ -5,7 +5,6 @@ import math
 import os
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
@@ -18,10 +17,7 @@ from numpy.typing import NDArray
 from plantar.common.atomic import write_text
 from plantar.common.table_writer import csv_text, mapping_rows
 from plantar.common.version import VERSION
-from plantar.common.workers.cluster_workers import ClusterWorkers
-from plantar.common.workers.local_workers import LocalWorkers
-from plantar.common.workers.workers import Job
-from plantar.errors import InputError, PlantarError
+from plantar.errors import InputError
 from plantar.formats import ReadOptions, formats
 from plantar.formats.step_table import masses_of_people, people_of_steps
 from plantar.formats.walkway import one_of_each_walk
@@ -34,23 +30,19 @@ from plantar.gait.analysis.study.compare_conditions import (
     compare_conditions,
     outliers,
 )
+from plantar.gait.analysis.study.measured_recordings import Measurement, measured
 from plantar.gait.analysis.study.measured_table import check_names
 from plantar.gait.analysis.study.mixed_models import MixedEffect, mixed_effects
 from plantar.gait.analysis.study.one_against_group import OneAgainstGroup, one_against_group
 from plantar.gait.analysis.study.one_recording import (
     RecordingResult,
-    digest_of,
-    key_of,
-    measure_recording,
-    read_result,
-    write_result,
 )
 from plantar.gait.analysis.study.paper_table import paper_text
 from plantar.gait.analysis.study.participants import Participation, not_read, read_participants
 from plantar.gait.analysis.study.patient_page import patient_figures, patient_page
 from plantar.gait.analysis.study.reliability import Agreement, Reliability, agreements, reliabilities
 from plantar.gait.analysis.study.sample_size import people_needed
-from plantar.gait.analysis.study.stored_steps import columns_of, write_csv, write_parquet
+from plantar.gait.analysis.study.stored_steps import StoredRows, columns_of, write_parquet, write_steps
 from plantar.gait.analysis.study.study_options import StudyOptions
 from plantar.gait.analysis.study.study_page import StudyParts, study_figures, study_page
 from plantar.gait.analysis.study.workbook import write_workbook
@@ -126,15 +118,13 @@ class Study:
 
     def step_rows(self) -> Iterator[dict[str, Any]]:
         """Yields a row of each step, one recording after another: all of a study of any size are never held."""
-        for result in self.results:
-            identity = _identity(result)
-            ends = _provenance(self, result)
-            for row in result.rows:
-                yield {**identity, **row, **ends}
+        for before, rows, after in _step_parts(self):
+            for row in rows:
+                yield {**before, **row, **after}
 
     def step_columns(self) -> list[str]:
         """Columns of `step_rows`."""
-        heads = ({**_identity(r), **r.rows[0], **_provenance(self, r)} for r in self.results if len(r.rows))
+        heads = (dict.fromkeys([*before, *_names(rows), *after]) for before, rows, after in _step_parts(self))
         return columns_of(heads, _PROVENANCE)
 
     def to_pandas(self) -> Any:
@@ -257,9 +247,9 @@ def run_study(
         )
     cache = target / _CACHE
     cache.mkdir(parents=True, exist_ok=True)
-    tasks = [_Measurement(root, cache, who, chosen, options) for who in everything]
-    found: dict[_Measurement, RecordingResult] = {}
-    for task, result in _measured(tasks, planned):
+    tasks = [Measurement(root, cache, who, chosen, options) for who in everything]
+    found: dict[Measurement, RecordingResult] = {}
+    for task, result in measured(tasks, planned):
         found[task] = result
         report(0.9 * len(found) / len(tasks), f"{len(found)} of {len(tasks)}: {task.who.file}")
     results = [found[task] for task in tasks]
@@ -307,54 +297,6 @@ def _unlisted(root: Path, path: Path) -> Participation:
     return Participation(name, who, stated.get("footwear", ""), mass, more=more, listed=False)
 
 
-@dataclass(frozen=True, eq=False)
-class _Measurement:
-    """A worker's task: a recording of a study, and where its result is kept."""
-
-    root: Path
-    cache: Path
-    who: Participation
-    choices: AnalysisOptions
-    options: ReadOptions | None
-
-
-def _measured(tasks: Sequence[_Measurement], plan: StudyOptions) -> Iterator[tuple[_Measurement, RecordingResult]]:
-    """Tasks and results as they end; each result is kept as soon as it is known, so that a stopped study goes on."""
-    if plan.jobs == 1 and plan.scheduler is None:
-        yield from ((task, _result(task)) for task in tasks)
-        return
-    job = Job(_result, failed=str)
-    pool = LocalWorkers(plan.jobs, job) if plan.scheduler is None else ClusterWorkers(plan.scheduler, job)
-    with closing(pool):
-        for task, result in pool.rows(iter(tasks)):
-            yield task, result if isinstance(result, RecordingResult) else _failed(task, result)
-
-
-def _failed(task: _Measurement, reason: str) -> RecordingResult:
-    return RecordingResult(task.who, "", "", "", reason, False, (), {}, {}, {}, (), {})
-
-
-def _result(task: _Measurement) -> RecordingResult:
-    who = task.who
-    path = task.root / who.file
-    digest = ""
-    key = ""
-    try:
-        if not path.resolve().is_relative_to(task.root.resolve()):
-            raise InputError(f"{who.file} is not in the study's folder")
-        digest = digest_of(path)
-        key = key_of(task.root, who, digest, task.choices, task.options)
-        kept = task.cache / f"{key[:24]}.npz"
-        found = read_result(kept, key)
-        if found is not None:
-            return found
-        result = measure_recording(task.root, who, task.choices, digest, task.options)
-    except PlantarError as error:
-        text = str(error).replace(f"{path}: ", "").replace(f"{task.root}{os.sep}", "")
-        return replace(_failed(task, text), digest=digest, key=key)
-    return write_result(result, kept)
-
-
 def _identity(result: RecordingResult) -> dict[str, Any]:
     who = result.who
     return {"recording": who.file, "participant": who.participant, "condition": who.condition, **who.more}
@@ -367,6 +309,16 @@ def _provenance(study: Study, result: RecordingResult) -> dict[str, Any]:
         "options": json.dumps(asdict(study.choices), sort_keys=True),
         "sha256": result.digest,
     }
+
+
+def _step_parts(study: Study) -> Iterator[tuple[dict[str, Any], Sequence[Mapping[str, Any]], dict[str, Any]]]:
+    """What stands before each step of a recording, the steps, and what stands after each; recordings without are left
+    out."""
+    return ((_identity(r), r.rows, _provenance(study, r)) for r in study.results if len(r.rows))
+
+
+def _names(rows: Sequence[Mapping[str, Any]]) -> Sequence[str]:
+    return rows.names if isinstance(rows, StoredRows) else columns_of(rows, ())
 
 
 def _recording_rows(study: Study) -> list[dict[str, Any]]:
@@ -439,7 +391,7 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
         texts = {"side", "note", *_PROVENANCE, *(name for r in study.results for name in _identity(r))}
         written.append(write_parquet(target / "steps.parquet", columns, study.step_rows(), texts))
     else:
-        written.append(write_csv(target / "steps.csv", columns, study.step_rows()))
+        written.append(write_steps(target / "steps.csv", columns, _step_parts(study)))
     if study.plan.workbook:
         steps = {"steps": (columns, list(study.step_rows()))}
         sheets = steps | {name: (columns_of(rows, _PROVENANCE), rows) for name, rows in tables.items()}

@@ -3,6 +3,7 @@
 A study of any size holds the means of its recordings in memory; its steps are read when they are written or fitted.
 """
 
+import csv
 import json
 import weakref
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -14,18 +15,20 @@ import numpy as np
 
 from plantar.common.atomic import replacing
 from plantar.common.optional_library import optional_library
-from plantar.common.table_writer import mapping_rows, write_csv_rows
+from plantar.common.table_writer import csv_row, mapping_rows, original_cell, write_csv_rows
 from plantar.errors import InputError
 
 Rows = Sequence[Mapping[str, Any]]
+_TEXTS = ("side", "note")  # cells of a step that are no numbers
 _GROUP = 20_000  # rows that a Parquet file keeps together
 
 
 class StoredRows(Rows):
-    """Rows of a stored result's steps, read from its file each time: a count, and no more, in memory."""
+    """Rows of a stored result's steps, read from its file each time: their names and count, and no more, in memory."""
 
-    def __init__(self, path: Path, count: int) -> None:
+    def __init__(self, path: Path, names: Sequence[str], count: int) -> None:
         self.path = path
+        self.names = names
         self._count = count
         self.folder: KeptFolder | None = None  # kept as long as these rows, where nobody else keeps it
 
@@ -44,24 +47,37 @@ class StoredRows(Rows):
     def __iter__(self) -> Iterator[Mapping[str, Any]]:
         return iter(self._read())
 
-    def _read(self) -> list[Mapping[str, Any]]:
+    def lines(self) -> list[str]:
+        """Each row as it stands in a CSV table, without the line's end."""
         try:
             with self.path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
-                names, values = json.loads(held["rows"].tobytes())
-                return [dict(zip(names, row, strict=True)) for row in values]
+                lines: list[str] = json.loads(held["rows"].tobytes())
+                return lines
         except Exception as error:  # removed or cut short while the study goes on
             raise InputError(f"{self.path}: the stored steps are gone ({error}); run the study again") from None
 
+    def _read(self) -> list[Mapping[str, Any]]:
+        texts = [name in _TEXTS for name in self.names]
+        return [
+            {
+                name: original_cell(cell) if text else _number(cell)
+                for name, text, cell in zip(self.names, texts, cells, strict=True)
+            }
+            for cells in csv.reader(self.lines())
+        ]
 
-def in_columns(rows: Rows) -> tuple[list[str], list[list[Any]]]:
-    """Names of rows of steps, once, and the values of each; None where a row has none.
+
+def in_lines(rows: Rows) -> tuple[list[str], list[str]]:
+    """Names of rows of steps, once, and each row as it stands in a CSV table, without the line's end.
+
+    What measures a recording writes its rows as text: with several processes this is what would else be left to one.
 
     Example:
-        >>> in_columns([{"step": 1, "arch_index": 0.2}, {"step": 2}])
-        (['step', 'arch_index'], [[1, 0.2], [2, None]])
+        >>> in_lines([{"step": 1, "arch_index": 0.2}, {"step": 2}])
+        (['step', 'arch_index'], ['1,0.2', '2,'])
     """
     names = columns_of(rows, ())
-    return names, list(map(list, mapping_rows(names, rows)))
+    return names, [csv_row(cells)[:-1] for cells in mapping_rows(names, rows)]
 
 
 class KeptFolder:
@@ -79,11 +95,22 @@ class KeptFolder:
                 rows.folder = self
 
 
-def write_csv(path: Path, names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Path:
-    """Write a table of rows as they come; returns the path."""
+def write_steps(
+    path: Path, names: Sequence[str], parts: Iterable[tuple[Mapping[str, Any], Rows, Mapping[str, Any]]]
+) -> Path:
+    """Write a table of steps, one recording after another; returns the path.
+
+    `parts`: what stands before each row of a recording, its rows, and what stands after each.
+    """
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", errors="replace", newline="") as stream:
         write_csv_rows(stream, [names])
-        write_csv_rows(stream, mapping_rows(names, rows))
+        for before, rows, after in parts:
+            if isinstance(rows, StoredRows) and [*before, *rows.names, *after] == names:
+                start = csv_row(list(before.values()))[:-1]
+                end = csv_row(list(after.values()))
+                stream.writelines(f"{start},{line},{end}" for line in rows.lines())
+            else:
+                write_csv_rows(stream, mapping_rows(names, ({**before, **row, **after} for row in rows)))
     return path
 
 
@@ -124,6 +151,12 @@ def _groups(rows: Iterable[Mapping[str, Any]]) -> Iterator[list[Mapping[str, Any
             group = []
     if group:
         yield group
+
+
+def _number(cell: str) -> float | None:
+    if not cell:
+        return None
+    return int(cell) if cell.lstrip("-").isdigit() else float(cell)
 
 
 def _cell(value: Any, text: bool) -> Any:

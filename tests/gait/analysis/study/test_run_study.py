@@ -17,6 +17,7 @@ from plantar.formats import ReadOptions
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.compare import compare_recordings
 from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.study import measured_recordings
 from plantar.gait.analysis.study import run_study as module
 from plantar.gait.analysis.study.compare_conditions import compare_conditions
 from plantar.gait.analysis.study.one_recording import GRID, RecordingResult, key_of, normalised, sampled
@@ -105,8 +106,8 @@ def test_a_study_goes_on_where_it_was(study, monkeypatch):
     folder, out, before = study
     calls: list[str] = []
     monkeypatch.setattr(module, "study_figures", lambda comparisons: [])
-    measure = module.measure_recording
-    monkeypatch.setattr(module, "measure_recording", lambda *a: calls.append(a[1].file) or measure(*a))
+    measure = measured_recordings.measure_recording
+    monkeypatch.setattr(measured_recordings, "measure_recording", lambda *a: calls.append(a[1].file) or measure(*a))
     told: list[str] = []
     again = run_study(folder, out, folder / "participants.csv", lambda fraction, text: told.append(text))
     assert set(calls) == {"damaged.npz", "gone.npz", "<script>alert(1)<-script>.csv"}
