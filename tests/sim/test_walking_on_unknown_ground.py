@@ -7,6 +7,7 @@ import pytest
 
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
+from tests.sim.rates import check_rate, drawn_seeds
 
 WEIGHT = 86.0 * 9.81
 
@@ -124,3 +125,17 @@ def test_feet_that_take_the_shape_of_bumps_walk_further():
 @pytest.mark.parametrize("scene", ["obstacle", "tilt", *(f"feasibility-{k}" for k in range(1, 5))])
 def test_every_seed_walks_on(scene, seed):
     assert run_scene(load_scene(scene), seed)["completed"]
+
+
+def test_a_sole_foresees_the_ground_that_it_comes_to_and_not_that_which_it_leaves():
+    """On stones each foothold is another part of the sole: what was seen has to lie where it then carries."""
+    seeds = drawn_seeds(test_a_sole_foresees_the_ground_that_it_comes_to_and_not_that_which_it_leaves, 2)
+    off = []
+    for seed in seeds:
+        simulation = Simulation(load_scene("stones", ["steps=8", "settle=0.5"]), seed)
+        simulation.run()
+        changes = [applied.change for applied in simulation.controller.plan.record]
+        seen = {c.step: c.vrp for c in changes if c.reason == "foothold seen"}
+        found = {c.step: c.vrp for c in reversed(changes) if c.reason == "foothold found"}  # the first of each
+        off += [np.hypot(*np.subtract(seen[step], found[step])) for step in seen.keys() & found.keys()]
+    check_rate([distance < 0.1 * simulation.body.sole for distance in off], least=0.9)

@@ -185,7 +185,9 @@ class Footing:
         looks = dcm is not None and s.footholds != "off"
         self._damp(phase, sensed, state, feet, looks)
         found = self.contacts.find(phase, time, feet, state, percepts, self._slope) if looks else ()
-        seen = self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None
+        # On its way up a sole sees the ground that it leaves.
+        sees = looks and self.motion.comes_down
+        seen = self.contacts.find_ahead(phase, time, feet, state, percepts) if sees else None
         region = self.zmp_region(phase, feet)
         pendulum = None
         if dcm is not None and (s.step_timing is not None or s.step_adjustment is not None):
