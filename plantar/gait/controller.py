@@ -248,7 +248,7 @@ class WalkingController:
             footing.conform(phase, balanced.zmp_desired, state, sensed)
         acceleration = balanced.com_acceleration + legs.com_acceleration
         balanced = balanced.changed(com=balanced.com + legs.com, com_acceleration=acceleration)
-        com, torso, posture = self.body_targets.at(phase, balanced.com, 0.0 if body is None else body.lean)
+        com, torso, posture = self.body_targets.at(phase, balanced.com, 0.0 if body is None else body.lean, state)
         # Before the first step the feet stand as they were put, and do not press against each other.
         rests = feedback and phase.kind == PhaseKind.STANDING and phase.step > 0
         stand = self.foot_targets.states(phase, sensed.soles, law.wants_contacts, rests)

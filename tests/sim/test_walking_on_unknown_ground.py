@@ -127,6 +127,13 @@ def test_every_seed_walks_on(scene, seed):
     assert run_scene(load_scene(scene), seed)["completed"]
 
 
+@pytest.mark.long
+def test_a_foot_comes_down_softly_beside_the_slab_that_the_other_one_stands_on():
+    seeds = drawn_seeds(test_a_foot_comes_down_softly_beside_the_slab_that_the_other_one_stands_on, 5)
+    scene = load_scene("obstacle", ["plant=random"], "hrp2kai")
+    check_rate([run_scene(scene, seed)["completed"] for seed in seeds], least=0.9)
+
+
 def test_a_sole_foresees_the_ground_that_it_comes_to_and_not_that_which_it_leaves():
     """On stones each foothold is another part of the sole: what was seen has to lie where it then carries."""
     seeds = drawn_seeds(test_a_sole_foresees_the_ground_that_it_comes_to_and_not_that_which_it_leaves, 2)

@@ -122,6 +122,15 @@ class FootMotion:
         return vector2(x - here_x, y - here_y)
 
     @property
+    def end(self) -> tuple[float, float, float]:
+        """Place in m and heading in rad that the last swing ends at, command frame; where the foot stands before."""
+        if self._swing is None:
+            position, yaw = self.footholds[self._side]
+            return position.item(0), position.item(1), yaw
+        x, y, _ = self._swing.end.tolist()
+        return x, y, self._swing.yaw_end
+
+    @property
     def comes_to(self) -> float:
         """Height in m of the last swing's end as now expected, command frame; infinite before."""
         if self._swing is None:

@@ -5,13 +5,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.sides import SIDES
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.com_height import CoMHeight
 from plantar.gait.plan.phases import Phase
 from plantar.gait.tick.footing import Footing
 from plantar.kernels.base.vectors import vector
 from plantar.kernels.gait.leaning_torso import leaning_torso
+from plantar.mechanics.base_state import BaseState
 
 _ROUND = 0.2  # of the way aside over which the lean ends
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
@@ -27,7 +28,7 @@ class BodyTargets:
         self._ground = CoMHeight(ground, settings.period, _FOLLOWS_GROUND / settings.body.beat)
 
     def at(
-        self, phase: Phase, com: NDArray[np.float64], lean: float
+        self, phase: Phase, com: NDArray[np.float64], lean: float, state: BaseState
     ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
         """Returns CoM (3,) in m, heading in rad and torso rotation (3, 3).
 
@@ -36,7 +37,7 @@ class BodyTargets:
         left = self._footing.motion.footholds["left"][1]
         right = self._footing.motion.footholds["right"][1]
         x, y = self._footing.frame.to_command(com).tolist()
-        target = vector(x, y, self._com_height(phase))
+        target = vector(x, y, self._com_height(phase, state))
         torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
         return target, torso, self.posture(target, torso, lean)
 
@@ -53,15 +54,43 @@ class BodyTargets:
         turn: NDArray[np.float64] = leaning_torso(com, left, right, torso, settings.lean_reach, lean, _ROUND)
         return turn
 
-    def _com_height(self, phase: Phase) -> float:
+    def _com_height(self, phase: Phase, state: BaseState) -> float:
         """Height in m over the stance foot, blended in double support, higher over partial footholds."""
         footing = self._footing
         motion = footing.motion
         stance = phase.stance
         if stance is None:
             target = 0.5 * (motion.footholds["left"][0].item(2) + motion.footholds["right"][0].item(2))
+            target += footing.contacts.rise
         else:
-            target = motion.footholds[stance][0].item(2)
+            stands = motion.footholds[stance][0].item(2)
             # A leg that steps down has to reach the ground: the body comes down before its foot.
-            target -= min(max(0.0, target - motion.comes_to), self._settings.spare_crouch)
-        return self._ground.update(target + footing.contacts.rise) + self._settings.com_height
+            target = stands - min(max(0.0, stands - motion.comes_to), self._settings.spare_crouch)
+            target += footing.contacts.rise
+            if motion.comes_down:
+                target = self._within_reach(target, stands, stance, state)
+        return self._ground.update(target) + self._settings.com_height
+
+    def _within_reach(self, target: float, stands: float, stance: Side, state: BaseState) -> float:
+        """A `target` in m, lower where the swing's end is out of its leg's reach: a leg that hangs straight is a strut
+        that the body falls onto. No lower than the standing knee bears.
+
+        `stands`: height in m of the `stance` foot.
+        """
+        footing = self._footing
+        motion = footing.motion
+        legs = self._settings.standing_legs
+        swing = other_side(stance)
+        if stance not in legs or swing not in legs:
+            return target
+        leg = legs[swing]
+        hip = state.position_base + state.rotation_base_to_world.dot(leg.hip)
+        x, y = footing.frame.to_command(hip[:2]).tolist()
+        end_x, end_y, yaw = motion.end
+        away = math.hypot(end_x + leg.ankle * math.cos(yaw) - x, end_y + leg.ankle * math.sin(yaw) - y)
+        # The hip stays as far below the CoM as it is.
+        above = float(state.com[2] - hip[2]) - self._settings.com_height
+        reaches = motion.comes_to + leg.tallest(away) + above
+        contacts = footing.contacts
+        bears = stands + legs[stance].lowest_for(contacts.center(stance).item(0), 1.0 / contacts.mass_ratio)
+        return min(target, max(reaches, bears))

@@ -52,6 +52,8 @@ def standing_legs(robot: Robot, model: mujoco.MjModel, weight: float, crouch: fl
     limits = _torque_limits(model)
     found: dict[Side, StandingLeg] = {}
     joints = {side: pitching_joints(robot, side, model, data) for side in SIDES}
+    body = model.body(robot.torso_body).id
+    torso = data.xmat[body].reshape(3, 3)
     apart = math.dist(*(data.xanchor[joints[side][0]][:2] for side in SIDES))
     for side, pitching in joints.items():
         if len(pitching) != 3 or pitching[1] not in limits:
@@ -71,6 +73,7 @@ def standing_legs(robot: Robot, model: mujoco.MjModel, weight: float, crouch: fl
             lever=limits[pitching[1]] / weight,
             high=float(ankle[1]),
             aside=0.5 * apart,
+            hip=tuple(torso.T @ (data.xanchor[pitching[0]] - data.xpos[body])),
         )
     return found
 

@@ -7,7 +7,7 @@ import pytest
 from plantar.gait.contact.standing_leg import StandingLeg
 
 # Of H1's size: thigh and shank of 0.3 m, crouched by 30 mm, with the weight at the knee's limit 0.16 m from it.
-LEG = StandingLeg(0.3, 0.3, 0.534, 0.03, 0.0, 1.0, 0.16, 0.12, 0.075)
+LEG = StandingLeg(0.3, 0.3, 0.534, 0.03, 0.0, 1.0, 0.16, 0.12, 0.075, (0.0, 0.075, 0.0))
 
 
 def knee_lever(leg: StandingLeg, place: float, rise: float) -> float:
@@ -50,3 +50,18 @@ def test_a_leg_that_reaches_as_far_as_it_can_is_almost_straight(aside, rise):
 
 def test_a_leg_that_is_too_high_reaches_nowhere():
     assert LEG.spread(0.0, 0.1) == 0.0
+
+
+def test_a_knee_with_torque_to_spare_lets_the_leg_come_down_to_its_limit():
+    low = LEG.lowest_for(0.0, 1.0)
+    assert low < 0.0
+    assert knee_lever(LEG, 0.0, low) == pytest.approx(LEG.lever, abs=1e-4)
+    assert LEG.lowest_for(0.0, 0.9) > low
+    assert LEG.lowest_for(-0.055, 1.0) > low  # a heel leaves it less
+
+
+@pytest.mark.parametrize("away", [0.0, 0.15, 0.3])
+def test_a_hip_is_as_high_as_a_leg_reaches(away):
+    tallest = LEG.tallest(away) - LEG.high
+    assert 2.0 * math.degrees(math.acos(math.hypot(away, tallest) / 0.6)) == pytest.approx(19.9, abs=0.1)
+    assert LEG.tallest(0.7) == LEG.high

@@ -9,7 +9,7 @@ from plantar.gait.contact.foot_contacts import FootholdFound
 from plantar.gait.contact.standing_leg import StandingLeg
 from plantar.gait.propose.step_in_reach import StepInReach
 
-LEG = StandingLeg(0.3, 0.3, 0.534, 0.03, 0.0, 1.0, 0.16, 0.12, 0.075)
+LEG = StandingLeg(0.3, 0.3, 0.534, 0.03, 0.0, 1.0, 0.16, 0.12, 0.075, (0.0, 0.075, 0.0))
 NOWHERE = np.empty((0, 2))
 LEAST, BODY = 0.004, 0.6  # m
 
