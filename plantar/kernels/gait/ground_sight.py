@@ -181,9 +181,10 @@ class GroundSight:
         self.seen = seen
         if seen < 3:
             return False
-        self.found = found = highest_ground.highest_plane(
+        found = highest_ground.highest_plane(
             self.x, self.y, self.news, self.readings, self.noise, self.least, self.used, self.plane
         )
+        self.found = found
         on = 0
         for i in range(count):
             if self.used[i]:
@@ -200,5 +201,6 @@ class GroundSight:
             self.nearest = self.plane[0] - highest
             self.middle = self.plane[0] - self.slope_x * self.middle_x - self.slope_y * self.middle_y
         else:  # the mean of the nearest third
-            self.nearest = self.middle = order.mean_of_least(self.work, on, max(1, on // 3)) if on else float("nan")
+            self.nearest = order.mean_of_least(self.work, on, max(1, on // 3)) if on else float("nan")
+            self.middle = self.nearest
         return True

@@ -37,7 +37,7 @@ def stated_shank(text: str) -> Any:
     try:
         x, y, across = (float(value) for value in text.split(","))
     except ValueError:
-        x = y = across = math.nan
+        x, y, across = math.nan, math.nan, math.nan
     if not (math.isfinite(x) and math.isfinite(y) and 0.0 < across <= _THICKEST):
         raise InputError(
             f"--shank is {text!r}; allowed: X,Y,DIAMETER in mm from the foot's origin, forward and left, up to "
