@@ -105,7 +105,8 @@ def main() -> int:
         found = {" ".join(walk): made for walk, made in zip(walks, pool.map(numbers, walks), strict=True)}
     walked = {name: made for name, made in found.items() if not isinstance(made, str)}
     if options.task == "record":
-        np.savez_compressed(options.file, **{f"{n}|{k}": v for n, made in walked.items() for k, v in made.items()})
+        with options.file.open("wb") as kept_in:  # under just that name; NumPy adds .npz to a path
+            np.savez_compressed(kept_in, **{f"{n}|{k}": v for n, made in walked.items() for k, v in made.items()})
         print(f"{len(walked)} walks are kept in {options.file}")
         return 0
     kept: dict[str, dict[str, np.ndarray]] = {}
