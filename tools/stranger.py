@@ -6,7 +6,8 @@ The wheel is built once and installed in a fresh environment for each set of ext
 the shell, every example and every door of the library then runs in a process of its own, a page's in one folder, in
 order. Each must end in one of five ways: done; still at work when its time is over; the line that gives the command for
 a library that none of the installed extras brings; the absence of one; or one line on a file of the user's that is not
-there. Anything else is printed, and the exit code is 1. Each is listed on stderr with its processor time.
+there. Anything else is printed, and the exit code is 1. Each is listed on stderr with its processor time. That time
+counts, and the time in which a process waits for something else than a processor: a busy machine ends nothing early.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import venv
 from collections.abc import Iterator
 from pathlib import Path
@@ -175,12 +177,18 @@ class Stranger:
         started = subprocess.Popen(
             command, cwd=folder, env=self.environment, text=True, start_new_session=True, **pipes
         )
-        try:
-            out, err = started.communicate(timeout=self._limit)
-        except subprocess.TimeoutExpired:
-            _end(started)
-            return None
-        return subprocess.CompletedProcess(command, started.returncode, out, err)
+        spent, used, seen = 0.0, 0.0, time.monotonic()
+        while spent < self._limit:
+            try:
+                out, err = started.communicate(timeout=min(1.0, self._limit - spent))
+            except subprocess.TimeoutExpired:
+                now, (used_now, wants_processor) = time.monotonic(), _session_time(started.pid)
+                spent += max(0.0, used_now - used) if wants_processor else now - seen
+                used, seen = used_now, now
+            else:
+                return subprocess.CompletedProcess(command, started.returncode, out, err)
+        _end(started)
+        return None
 
     def _judge(self, place: str, done: subprocess.CompletedProcess[str] | None) -> None:
         ended = "at work" if done is None else outcome(done, self._absent)
@@ -195,6 +203,29 @@ def _children_s() -> float:
     """Processor time of the processes that ended so far."""
     used = os.times()
     return used.children_user + used.children_system
+
+
+def _session_time(session: int) -> tuple[float, bool]:
+    """Processor time in s of a session's processes and their ended children, and whether one of its threads is ready.
+
+    Where the system has no /proc none is ever ready, so that the clock's time counts.
+    """
+    ticks = 0
+    ready = False
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            fields = _stat(process)
+            if int(fields[3]) == session:
+                ticks += sum(map(int, fields[11:15]))  # of itself and of its children, as user and in the kernel
+                ready = ready or any(_stat(thread)[0] == "R" for thread in (process / "task").iterdir())
+        except OSError:  # it ended meanwhile
+            continue
+    return ticks / os.sysconf("SC_CLK_TCK") if ticks else 0.0, ready
+
+
+def _stat(process: Path) -> list[str]:
+    """Fields of a process or thread behind its name, which may hold blanks: state, parent, group, session, ..."""
+    return (process / "stat").read_text().rpartition(")")[2].split()
 
 
 def _end(started: subprocess.Popen[str]) -> None:
@@ -229,7 +260,7 @@ def main() -> int:
     parser.add_argument("--wheel", type=Path, help="built already")
     parser.add_argument("--python", type=Path, help="of an environment that has it with the first extras already")
     parser.add_argument("--only", default="", help="part of the place of what is tried")
-    parser.add_argument("--limit", type=float, default=300.0, metavar="S", help="for each block")
+    parser.add_argument("--limit", type=float, default=300.0, metavar="S", help="of work or waiting, each")
     given = parser.parse_args()
     broken = 0
     with tempfile.TemporaryDirectory() as made:

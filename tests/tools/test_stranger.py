@@ -61,6 +61,31 @@ def test_what_does_not_end_in_time_is_at_work_and_leaves_no_process(stranger, tm
     assert tried.broken == []
 
 
+def test_time_is_that_of_a_processor_or_of_waiting(stranger, tmp_path, monkeypatch):
+    """A process that is stopped, as by a busy machine, is neither at work nor waiting for something."""
+    monkeypatch.setattr(stranger, "_session_time", lambda session: (0.1, True))
+    tried = stranger.Stranger(Path(sys.executable), "", limit=1.0)
+    tried._try_block(stranger.Block("page:2", "sh", "sleep 2.5\n"), "", tmp_path)  # by the clock over after 1 s
+    assert tried.counts == {"done": 1}
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="processor time of other processes is read from /proc")
+def test_processor_time_of_a_session_is_that_of_all_its_processes(stranger):
+    code = "import time\nwhile time.process_time() < 0.3: pass\nprint(flush=True)\ninput()"
+    shell = subprocess.Popen(
+        ["sh", "-c", f"'{sys.executable}' -c '{code}'; true"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        start_new_session=True,
+    )
+    try:
+        shell.stdout.readline()
+        used, _ready = stranger._session_time(shell.pid)
+        assert 0.25 < used < 3.0  # counted in ticks of 10 ms, of user and kernel apart
+    finally:
+        shell.communicate(b"\n")
+
+
 def test_every_page_has_blocks_or_none_that_are_missed(stranger):
     found = [block for page in stranger.PAGES for block in stranger.blocks_of(page)]
     assert {block.language for block in found} == {"python", "sh"}
