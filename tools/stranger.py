@@ -90,9 +90,9 @@ def blocks_of(page: Path) -> Iterator[Block]:
 
 
 def lines_of(block: Block) -> list[str]:
-    """Commands of a block of the shell that are tried: none that sets up an environment."""
-    lines = block.text.replace("\\\n", " ").splitlines()
-    return [line.partition(" #")[0].strip() for line in lines if line.strip() and not line.startswith(_NOT_RUN)]
+    """Commands of a block of the shell that are tried: none that sets up an environment; a loop is one."""
+    commands = re.findall(r"^for (?s:.*?)^done$|^.*\S.*$", block.text.replace("\\\n", " "), re.MULTILINE)
+    return [command.partition(" #")[0].strip() for command in commands if not command.startswith(_NOT_RUN)]
 
 
 def absent_libraries(extras: str) -> set[str]:

@@ -61,6 +61,12 @@ def test_what_does_not_end_in_time_is_at_work_and_leaves_no_process(stranger, tm
     assert tried.broken == []
 
 
+def test_a_loop_is_one_command(stranger):
+    text = "cd out\n\nplantar list \\\n  scenes  # all\nfor side in left right; do\n  cat $side\ndone\necho done\n"
+    found = stranger.lines_of(stranger.Block("page:2", "sh", text))
+    assert found == ["plantar list    scenes", "for side in left right; do\n  cat $side\ndone", "echo done"]
+
+
 def test_time_is_that_of_a_processor_or_of_waiting(stranger, tmp_path, monkeypatch):
     """A process that is stopped, as by a busy machine, is neither at work nor waiting for something."""
     monkeypatch.setattr(stranger, "_session_time", lambda session: (0.1, True))
