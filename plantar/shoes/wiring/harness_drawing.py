@@ -18,6 +18,8 @@ _ROW = "#1f6fb4"
 _COLUMN = "#c2410c"
 _PINS_A_LINE = 4
 _LINES_A_COLUMN = 46
+_LETTERS_A_LINE = 3 + 14 * _PINS_A_LINE
+_LETTER = 0.602  # width of a letter of matplotlib's monospaced font as a share of the font's size
 
 
 def draw_harness(shoe: Shoe, parameters: ShoeParameters, wiring: Wiring, board: FlexBoard | None) -> bytes:
@@ -26,8 +28,17 @@ def draw_harness(shoe: Shoe, parameters: ShoeParameters, wiring: Wiring, board: 
     _plan(axes, shoe, parameters, wiring, board)
     _pins(table, wiring)
     out = io.BytesIO()
-    figure.savefig(out, format="png", dpi=110, metadata={"Software": None})
+    figure.savefig(out, format="png", dpi=110, bbox_inches=_drawn(figure, axes, table), metadata={"Software": None})
     return out.getvalue()
+
+
+def _drawn(figure: Any, axes: Any, table: Any) -> Any:
+    """Box in inches of what is drawn on a figure: of the plan, and of the lines of the table, which has free space."""
+    from matplotlib.transforms import Bbox  # slow: only where something is drawn
+
+    figure.draw_without_rendering()
+    boxes = [axes.get_tightbbox(), *(line.get_window_extent() for line in table.texts)]
+    return Bbox.union(boxes).transformed(figure.dpi_scale_trans.inverted()).padded(0.1)
 
 
 def _plan(axes: Any, shoe: Shoe, p: ShoeParameters, wiring: Wiring, board: FlexBoard | None) -> None:
@@ -61,7 +72,7 @@ def _plan(axes: Any, shoe: Shoe, p: ShoeParameters, wiring: Wiring, board: FlexB
             axes.fill(*ring(cell).T, facecolor="#cfd5dc", edgecolor=own, lw=2.5)
             axes.text(x, y, f"T{k}", ha="center", va="center", fontsize=7)
         title = "T id, its edge in the colour of its lead; grey: the way of the leads to the heel"
-    axes.set_aspect("equal")
+    axes.set_aspect("equal", anchor="N")
     axes.invert_yaxis()  # seen from the ground, toes to the right, the left side is below
     axes.set_xlabel("mm, toes to the right; seen from the ground")
     axes.set_title(f"{drawn_name(shoe.layout.name)}, {shoe.side}: {title}", fontsize=9, loc="left")
@@ -95,10 +106,12 @@ def _pins(axes: Any, wiring: Wiring) -> None:
         lines += [("   " + "   ".join(f"{entry:<11}" for entry in row), False) for row in rows]
     columns = -(-len(lines) // _LINES_A_COLUMN)
     axes.set_axis_off()
+    width = 72.0 * axes.figure.get_figwidth() * axes.get_position().width  # in points, as fonts
+    size = min(9.0, width / (columns * _LETTERS_A_LINE * _LETTER))
     for k, (text, bold) in enumerate(lines):
         place = (k // _LINES_A_COLUMN / columns, 1.0 - (k % _LINES_A_COLUMN) / _LINES_A_COLUMN)
         weight = "bold" if bold else "normal"
-        axes.text(*place, text, transform=axes.transAxes, fontsize=6.5, family="monospace", weight=weight, va="top")
+        axes.text(*place, text, transform=axes.transAxes, fontsize=size, family="monospace", weight=weight, va="top")
     axes.set_title("pin and net of each part", fontsize=9, loc="left")
 
 
