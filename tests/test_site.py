@@ -99,6 +99,8 @@ def test_the_site_has_every_page_and_names_no_other(docs_pages, tmp_path, monkey
     found = {m for m in made if not (tmp_path / "pages" / m).read_text(encoding="utf-8").startswith("---\nsearch:")}
     assert {"limits.md", "metrics.md", "recordings.md", "api/index.md", "answers/pads.md"} <= found
     assert not found & {"settings.md", "benchmarks/README.md", "api/plantar.formats.md", "changelog.md"}
+    part = (tmp_path / "pages" / "tutorials" / "part.md").read_text(encoding="utf-8")
+    assert "[`plantar/sim/terrain`](../api/plantar.sim.terrain.md)" in part
     for page in (tmp_path / "pages").rglob("*.md"):
         text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
         links = [t for t in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text) if "://" not in t]

@@ -3,7 +3,7 @@
     python tools/docs_pages.py
 
 Generated are the settings with units and ranges, the errors, and a page of the API for each room of a package. Links to
-files that are no pages of the site become their names.
+files that are no pages of the site become their names, and names of the library's rooms links to their API.
 """
 
 import ast
@@ -29,6 +29,9 @@ NOT_SEARCHED = ("settings.md", "architecture.md", "scale.md", "changelog.md", "a
 """Pages that the search leaves out, by how their place begins: what the project looks like inside."""
 
 _LEFT_OUT = "---\nsearch:\n  exclude: true\n---\n"  # what the theme's search understands
+
+CODE = re.compile(r"(?<!\[)`((?:plantar|gait|robots|sim|shoes|wholebody)(?:/\w+)+)(?:\.py)?`(?!\])")
+"""A folder or file of the library as it is written on a page, outside of links."""
 
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)((?:#[^)]*)?)\)")
 
@@ -67,8 +70,14 @@ def linked(page: Path) -> str:
             return f"{picture}[{text}]({inside}{anchor})"
         return match[0] if known.exists() and known.is_relative_to(PAGES) else f"{picture}{text}"
 
+    def api(match: re.Match[str]) -> str:
+        path = match[1] if match[1].startswith("plantar/") else f"plantar/{match[1]}"
+        rooms = (path.replace("/", "."), os.path.dirname(path).replace("/", "."))
+        known = [place for room in rooms if (place := PAGES / "api" / f"{room}.md").is_file()]
+        return f"[{match[0]}]({os.path.relpath(known[0], page.parent)})" if known else match[0]
+
     parts = re.split(r"(^```.*?^```$)", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-    return "".join(part if part.startswith("```") else LINK.sub(target, part) for part in parts)
+    return "".join(part if part.startswith("```") else CODE.sub(api, LINK.sub(target, part)) for part in parts)
 
 
 def _origin(page: Path) -> Path:

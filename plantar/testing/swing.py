@@ -72,8 +72,9 @@ def _lacks_of_aim(swing: Swing, start: SwingStart) -> list[str]:
     before = swing.at(time)[0]
     aimed = swing.aimed(time, place, start.yaw_end, start.duration + 0.1)
     lacks = []
-    if np.linalg.norm(aimed.at(time)[0] - before) > _NEAR:
-        lacks.append("aimed() makes the foot jump")
+    jump = float(np.linalg.norm(aimed.at(time)[0] - before))
+    if jump > _NEAR:
+        lacks.append(f"aimed() makes the foot jump by {1e3 * jump:.0f} mm at the time that it is given")
     if np.linalg.norm(aimed.at(start.duration + 0.1)[0][:2] - place) > _NEAR:
         lacks.append("aimed() does not end at the place that it is given")
     if abs(aimed.duration - start.duration - 0.1) > 1e-9:

@@ -88,7 +88,10 @@ class Swing(Protocol):
         ...
 
     def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> "Swing":
-        """Returns the swing to another place (2,) in m, yaw and duration from a time."""
+        """Returns the swing from where the foot is at a time to another place (2,) in m and yaw in rad.
+
+        Without a jump, by a duration in s since lift-off; the height of its end stays.
+        """
         ...
 
 
