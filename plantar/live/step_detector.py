@@ -13,7 +13,7 @@ from plantar.sensing.reading import Reading
 _STRIKE = 0.05  # of the range from rest to peak: `plantar.gait.analysis` puts events there, too
 _CONTACT = 0.10  # of it, which a heel strike has to reach to count
 _LIGHT = 0.13  # of it, and the s after that by which a toe off lies at the latest: a slow walker's shoe presses on
-_AFTER_LIGHT = 0.010
+_AFTER_LIGHT = 0.009
 _NOISE = 4.0  # standard deviations that a level lies above rest
 _CONTACT_NOISE = 8.0
 _LEAST_PEAK = 20.0  # N that a foot has to reach: what lies below is no step

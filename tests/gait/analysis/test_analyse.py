@@ -196,7 +196,7 @@ def test_real_pedar_walk_has_9_and_8_complete_steps(tmp_path, real_data):
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize(
-    ("gain", "lost"), [(1e-9, None), (1e9, None), (1e-9, "cells"), (1.0, "cells"), (1.0, "all"), (1e9, "all")]
+    ("gain", "lost"), [(0.03, None), (1e9, None), (0.03, "cells"), (1.0, "cells"), (1.0, "all"), (1e9, "all")]
 )
 def test_odd_recordings_still_give_a_report(tmp_path, gain, lost):
     """Forces of no foot, cells that never measure, and nothing at all: a page and warnings, never an exception."""
@@ -209,6 +209,11 @@ def test_odd_recordings_still_give_a_report(tmp_path, gain, lost):
         force[:, : 3 if lost == "cells" else 99] = np.nan
     layout = write_layout(nominal_insole("y", "left"), tmp_path / "layout.json")
     np.savez(tmp_path / "odd.npz", time=time, left=force, unit="N")
+    if gain == 0.03:
+        np.savez(tmp_path / "none.npz", time=time, left=1e-9 * force, unit="N")
+        with pytest.raises(FormatError, match="nobody's load"):
+            analyse_recording(tmp_path / "none.npz", tmp_path / "none", layout=layout)
+        assert not (tmp_path / "none").exists()
     result = analyse_recording(tmp_path / "odd.npz", tmp_path / "out", layout=layout)
     assert result["feet"]["left"]["steps"] == (0 if lost == "all" else 3)
     assert any("unusual" in w for w in result["warnings"]) == (gain != 1.0 and lost != "all")

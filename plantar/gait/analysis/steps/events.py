@@ -60,11 +60,13 @@ _BESIDE = 0.5  # Time in s before a landing and after a push-off in which the fo
 # straight. A shoe that touches lightly before the foot lands makes the first piece flat.
 _RISE = (0.20, 0.50)
 # Shares of the range that makers' events of insoles lie at, and times in s by which a straightened landing may begin
-# before and a push-off end after: a slow walker's shoe presses long before and after what makers call a contact.
+# before and a push-off end after: a slow walker's shoe presses long before and after what makers call a contact. With
+# 10 ms after, a quick walker's double support is 1.7 points longer than its maker's; with 8.5 the stances of a pedar
+# walk are shorter than by another package's definitions.
 _STATED_RISE = 0.075
 _STATED_FALL = 0.13
 _BEFORE = 0.008
-_AFTER = 0.010
+_AFTER = 0.009
 _LIGHT = 0.7  # Share of the middle load that a contact has to reach for its peak to count
 # Contacts of more than 1.5 s are looked at for steps in them: force that rises by more than half of the foot's range
 # within 0.25 s, from 0.2 to 0.8 of what it ranges over there; weight is shifted more slowly.
