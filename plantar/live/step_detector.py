@@ -40,7 +40,7 @@ class StepDetector:
     """Contacts of one foot by its vertical force; nothing but what has come is used.
 
     A heel strike lies where the force rises through 5 % of the range from rest to peak, and is known when 10 % are
-    reached. A toe off lies where it falls through 5 %, of an insole at most 10 ms after 13 %, and is known 0.1 s
+    reached. A toe off lies where it falls through 5 %, of an insole at most 9 ms after 13 %, and is known 0.1 s
     later: until then the foot may be set on again. `kind`: what measures.
 
     Attribute `loaded`: whether the foot carries.
