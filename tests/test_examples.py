@@ -93,7 +93,7 @@ QUICK = {
         r".*moticon: 16 ",
         holds=lambda emed, *spacing: emed == 693 and spacing == (715, 739, 715),  # 616 cells of 45 kPa, by their areas
     ),
-    "record_own_metric": Example(r"left: (\d+) steps, forefoot loaded (\S+) ", holds=lambda n, t: n == 10 and t > 0.2),
+    "record_own_metric": Example(r"left: (\d+) steps, forefoot loaded (\S+) ", holds=lambda n, t: n == 13 and t > 0.2),
     "shoe_from_any_foot": Example(
         r"a box: .* (\d+) whole.*an ellipse: .* (\d+) whole.*h1: .* (\d+) whole", holds=lambda *n: min(n) > 20
     ),
