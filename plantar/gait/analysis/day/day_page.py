@@ -182,6 +182,9 @@ def _how() -> str:
     )
 
 
+_TICKS = (120, 300, 600, 900, 1800, 3600)  # s from one to the next, ten at most
+
+
 def figure_of(day: Day) -> Any:
     """Figure of activities over the day and load by the hour."""
     figure, axes = new_figure(9.5, 4.6, rows=2, grid=False, height_ratios=(1, 2.2))
@@ -191,11 +194,12 @@ def figure_of(day: Day) -> Any:
         if spans:
             band.broken_barh(spans, (0.0, 1.0), facecolors=_PAINT[name], label=name, linewidth=0)
     hours = (day.end - day.begin) / 3600.0
-    ticks = np.arange(0.0, hours + 1e-9, max(1.0, round(hours / 10.0)))
-    shown = [day.at(day.begin + 3600.0 * tick)[:-3] for tick in ticks]
-    for panel in axes:
+    whole = 3600 * max(1, round(hours / 10.0))
+    fine = next((step for step in _TICKS if 3600.0 * hours <= 10 * step), whole)
+    for panel, apart in ((band, fine), (load, whole)):  # a load is that of its hour
+        ticks = range(0, int(3600.0 * hours) + 1, apart)
         panel.set_xlim(0.0, hours)
-        panel.set_xticks(ticks, shown)
+        panel.set_xticks([tick / 3600.0 for tick in ticks], [day.at(day.begin + tick)[:-3] for tick in ticks])
     band.set_yticks([])
     band.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0), fontsize=8, frameon=False)
     sides = list(day.hours[0].impulse_Ns)

@@ -197,8 +197,8 @@ def one_against_group(
         notes.append(f"values of {participant} are means of {' and '.join(mixed)}, none of which is {group}")
     if len(known) < ENOUGH_IN_GROUP:
         notes.append(
-            f"the group has {len(known)} people: that all measures together are allowed for takes {ENOUGH_IN_GROUP} or "
-            "more, so p of each measure alone is what there is"
+            f"the group has {len(known)} people: p (all) cannot fall to 0.05 with fewer than {ENOUGH_IN_GROUP}; judge "
+            "by the p of each measure, of which 1 in 20 is below 0.05 by chance"
         )
     cells = {side: _cells(others, side) for side in SIDES}
     mine = {side: Cell(participant, side, feet) for side in SIDES if (feet := [f for f in own if f[1] == side])}

@@ -139,20 +139,12 @@ def _how(one: OneAgainstGroup) -> str:
 
 def patient_figures(one: OneAgainstGroup) -> list[tuple[str, Any, str]]:
     """Name, figure (None if empty) and caption of the person's curves and maps beside the group's."""
-    who = one.participant
-    return [
-        (
-            "patient_curves",
-            _draw_curves(one),
-            f"Vertical force of {who} (line) and 95 % of people like the group (band); shaded where it differs, all "
-            "instants allowed for",
-        ),
-        (
-            "patient_maps",
-            _draw_maps(one),
-            f"Maximum pressure of {who}, mean of the group, and outlined where they differ, all places allowed for",
-        ),
-    ]
+    curves = f"Vertical force of {one.participant} (line) and 95 % of people like the group (band)"
+    maps = f"Maximum pressure of {one.participant}, and mean of the group"
+    if one.n >= ENOUGH_IN_GROUP:
+        curves += "; shaded where it differs, all instants allowed for"
+        maps += "; outlined where they differ, all places allowed for"
+    return [("patient_curves", _draw_curves(one), curves), ("patient_maps", _draw_maps(one), maps)]
 
 
 def _draw_curves(one: OneAgainstGroup) -> Any | None:
@@ -183,7 +175,8 @@ def _draw_maps(one: OneAgainstGroup) -> Any | None:
     if not one.maps:
         return None
     figure, axes = new_figure(2.2 * 2 * len(one.maps), 4.2, columns=2 * len(one.maps), squeeze=False)
-    highest = max(float(max(m.value.max(), m.mean.max())) for m in one.maps.values()) or 1.0
+    factor, unit = (1.0, "counts") if one.curve_unit == "counts" else (1e-3, "kPa")
+    highest = factor * max(float(max(m.value.max(), m.mean.max())) for m in one.maps.values()) or 1.0
     drawn = None
     for i, (side, map_) in enumerate(one.maps.items()):
         places = one.places[side]
@@ -192,8 +185,9 @@ def _draw_maps(one: OneAgainstGroup) -> Any | None:
             grid[places] = values
             turned = grid if side == "left" else grid[:, ::-1]  # columns from lateral to medial; toes up
             frame: dict[str, Any] = {"origin": "lower", "extent": (0.0, 1.0, 0.0, 1.0), "aspect": 2.6}
-            drawn = panel.imshow(turned / highest, vmin=0.0, vmax=1.0, cmap="viridis", **frame)
-            panel.set(title=f"{side}, {name}", xticks=[], yticks=[])
+            drawn = panel.imshow(factor * turned, vmin=0.0, vmax=highest, cmap="viridis", **frame)
+            across = "lateral to medial" if side == "left" else "medial to lateral"
+            panel.set(title=f"{side}, {name}", xlabel=across, xticks=[], yticks=[])
         differs = np.zeros(places.shape)
         differs[places] = map_.differs
         if differs.any():
@@ -202,6 +196,7 @@ def _draw_maps(one: OneAgainstGroup) -> Any | None:
             rows = (np.arange(high) + 0.5) / high
             columns = (np.arange(wide) + 0.5) / wide
             axes[0][2 * i].contour(columns, rows, shown, levels=[0.5], colors="#ffffff", linewidths=1.4)
+    axes[0][0].set_ylabel("length of the sole, toes up")
     if drawn is not None:
-        figure.colorbar(drawn, ax=list(axes[0]), label="share of the largest pressure", shrink=0.8)
+        figure.colorbar(drawn, ax=list(axes[0]), label=f"maximum pressure ({unit})", shrink=0.8)
     return figure
