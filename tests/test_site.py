@@ -4,6 +4,7 @@ import importlib.util
 import os
 import re
 import shlex
+import shutil
 import socket
 import subprocess
 import sys
@@ -105,6 +106,20 @@ def test_the_site_has_every_page_and_names_no_other(docs_pages, tmp_path, monkey
         text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
         links = [t for t in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text) if "://" not in t]
         assert [t for t in links if not (page.parent / t).exists()] == [], page
+
+
+@pytest.mark.skipif(not any(map(shutil.which, ("chromium", "chromium-browser"))), reason="needs Chromium")
+def test_the_check_of_the_pages_opens_them_and_names_a_dead_link(tmp_path):
+    site = tmp_path / "site"
+    site.mkdir()
+    check = [sys.executable, str(ROOT / "tools" / "check_site.py"), str(site), "--axe", str(tmp_path / "none")]
+    (site / "index.html").write_text('<!doctype html><title>a</title><a href="gone/">b</a>')
+    done = subprocess.run(check, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 1, done.stderr
+    assert "/index.html: leads to gone/, which is not there" in done.stdout
+    (site / "index.html").write_text("<!doctype html><title>a</title>")
+    done = subprocess.run(check, capture_output=True, text=True, timeout=300)
+    assert (done.returncode, done.stdout.rpartition("\x1b[K")[2]) == (0, "nothing found on 1 pages, 1 of them opened\n")
 
 
 def test_every_error_is_explained(docs_pages):

@@ -184,15 +184,15 @@ def main() -> int:
     clean = json.loads(notes.read_text()) if notes.exists() else {}
     left = [page for page in pages if clean.get(page) != prints[page]]
     seen = (findings(options.site, left, options.axe, browser, dark=dark) for dark in (False, True) if left)
-    findings = []
+    found = []
     for finding in chain(broken_links(options.site), *seen):
         print(f"\r\033[K{finding}", flush=True)
-        findings.append(finding)
-    if not any(finding.startswith("no page") for finding in findings):
-        faulty = {finding.partition(" at ")[0] for finding in findings}
+        found.append(finding)
+    if not any(finding.startswith("no page") for finding in found):
+        faulty = {finding.partition(" at ")[0] for finding in found}
         notes.write_text(json.dumps(clean | {page: prints[page] for page in left if page not in faulty}))
-    print(f"\r\033[K{len(findings) or 'nothing'} found on {len(pages)} pages, {len(left)} of them opened")
-    return 1 if findings else 0
+    print(f"\r\033[K{len(found) or 'nothing'} found on {len(pages)} pages, {len(left)} of them opened")
+    return 1 if found else 0
 
 
 if __name__ == "__main__":
