@@ -278,6 +278,7 @@ def _observed(
 
 
 def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:
+    """A plan whose taxels are active under half of a robot's mass in kg, and a note where that is a lower level."""
     level = _ACTIVE * 0.5 * mass * GRAVITY / len(left.layout)
     if level > 0.5 * left.layout.force_threshold:
         return left, ()
