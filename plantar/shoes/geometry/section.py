@@ -26,8 +26,13 @@ def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
         a = crossing[:, i]
         b = crossing[:, j]
         crosses = (a[:, 2] > height) != (b[:, 2] > height)
-        rise = np.where(crosses, b[:, 2] - a[:, 2], 1.0)
-        point = a[:, :2] + ((height - a[:, 2]) / rise)[:, None] * (b - a)[:, :2]
+        # From below to above, so that both triangles of an edge have the same point to the last bit: of two that
+        # differ, rounding would leave a gap, and a section with a gap loses its holes.
+        up = (b[:, 2] > height)[:, None]
+        low = np.where(up, a, b)
+        high = np.where(up, b, a)
+        rise = np.where(crosses, high[:, 2] - low[:, 2], 1.0)
+        point = low[:, :2] + ((height - low[:, 2]) / rise)[:, None] * (high - low)[:, :2]
         ends.append(np.where(crosses[:, None], point, np.nan))
     pairs = np.stack(ends, axis=1)  # each triangle has two of three points
     segments = pairs[np.isfinite(pairs[..., 0])].reshape(-1, 2, 2).round(4)

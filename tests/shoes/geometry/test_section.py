@@ -47,3 +47,16 @@ def test_engraved_bands_and_sharp_edges_are_no_walls(box, prism):
     assert thinnest_wall(thin, ((8.99, 10.01),)) in (pytest.approx(9.0), pytest.approx(10.0))
     wedge = prism(np.array([[0, 0], [40, 0], [40, 25]]), 0, 20)
     assert thinnest_wall(wedge) == pytest.approx(20.0, abs=1e-3)  # its height: its acute corner is no wall
+
+
+def test_the_two_triangles_of_an_edge_are_cut_at_one_point():
+    """Tetrahedra with corners on a grid of 1/8 mm, so that many points lie halfway between two rounded ones."""
+    draw = np.random.default_rng(0)
+    for _ in range(1000):
+        corners = draw.integers(-100, 100, (4, 3)) / 8.0
+        height = float(np.sort(corners[:, 2])[1:3].mean())
+        if height in corners[:, 2]:
+            continue
+        segments, _ = cut_segments(corners[[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]], height)
+        ends, counts = np.unique(segments.reshape(-1, 2), axis=0, return_counts=True)
+        assert (counts % 2 == 0).all(), (corners, ends)
