@@ -182,7 +182,7 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
             surface, step, names, parts = _write_solids(shoe, build, target)
             report_progress((i + 0.4) / count, f"checking the {side} shoe")
             found = check_shoe(shoe, build, surface=surface, step=step, parts=parts)
-            own = wire_shoe(shoe, build.parameters)
+            own = wire_shoe(shoe, build.parameters, next(iter(wired.values()), None))
             checks[side] = replace(found, checks=(*found.checks, *board_checks(own, shoe, build.parameters)))
             weights[side] = checks[side].weights
             bills[side] = bill_of_parts(shoe, build, weights[side], None if own is None else own.wiring)

@@ -4,7 +4,7 @@ The front, which lies on the sheet and faces the ground, has of each taxel a com
 run along the front, columns zigzag on the back; both lead to the tail, whose lines are on the front.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -12,13 +12,15 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from plantar.common.sides import other_side
 from plantar.errors import FootError
+from plantar.layouts.layout import Side
 from plantar.shoes.build import Shoe
 from plantar.shoes.checks.printability import BOARD_UP
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import tail_lines
-from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan
 from plantar.shoes.plan.wiring import channel_lines
 from plantar.shoes.units import to_mm
 from plantar.shoes.wiring.grid_router import EDGE, LINE, NEAR, STEP, VIA, GridRouter, Node
@@ -73,7 +75,7 @@ class FlexBoard:
         contacts: Ends (2, 2) of each line's contact at the tail's end.
     """
 
-    side: str
+    side: Side
     outline: Any
     combs: tuple[Comb, ...]
     pieces: tuple[Piece, ...]
@@ -117,18 +119,46 @@ def comb_shapes(size: float) -> tuple[Any, Any]:
 def flex_board(shoe: Shoe, parameters: ShoeParameters) -> FlexBoard:
     """Gives the routed board of a shoe with a sheet, by parameters.
 
-    FootError where a line finds no way to the tail.
+    The boards of a pair are mirror images. FootError where a line finds no way to the tail.
     """
-    drawing = _Drawing(shoe, parameters)
-    order = sorted(
-        drawing.names, key=lambda name: abs(drawing.levels[name])
-    )  # those nearest to the tail's middle first
+    # Both hands are tried, whichever is asked for: combs and tail are not symmetric, so that lines may find their ways
+    # on a sheet but not on its mirror image.
+    other = mirrored_plan(shoe.plan)
+    plans = (shoe.plan, other) if shoe.side == "left" else (other, shoe.plan)
+    drawings = [_Drawing(plan, parameters) for plan in plans]
+    orders = [sorted(drawing.names, key=lambda name: abs(drawing.levels[name])) for drawing in drawings]  # inner first
     for attempt in range(_TRIES):
-        failed = drawing.routed(order, banded=attempt < _BANDED)
-        if failed is None:
-            return drawing.board()
-        order = [failed, *(net for net in order if net != failed)]
-    raise FootError(f"no way for line {order[0]} of the sheet to its tail; use a larger pitch or narrower electrodes")
+        for drawing, order in zip(drawings, orders, strict=True):
+            failed = drawing.routed(order, banded=attempt < _BANDED)
+            if failed is None:
+                board = drawing.board()
+                return board if board.side == shoe.side else mirrored_board(board)
+            order.remove(failed)
+            order.insert(0, failed)
+    raise FootError(
+        f"no way for line {orders[0][0]} of the sheet to its tail; use a larger pitch or narrower electrodes"
+    )
+
+
+def mirrored_board(board: FlexBoard) -> FlexBoard:
+    """Board of the other foot's shoe: y changes sign.
+
+    The tail's lines are counted from the other edge: those of the adapter are, as they lie on it.
+    """
+    flip = np.array([1.0, -1.0])
+
+    def flipped(shape: Any) -> Any:
+        return shapely.geometry.polygon.orient(shapely.Polygon(ring(shape) * flip))
+
+    return FlexBoard(
+        other_side(board.side),
+        flipped(board.outline),
+        tuple(replace(comb, shape=flipped(comb.shape)) for comb in board.combs),
+        tuple(replace(piece, ends=piece.ends * flip) for piece in board.pieces),
+        tuple((net, place * flip) for net, place in board.vias),
+        board.tail[::-1],
+        tuple(ends * flip for ends in reversed(board.contacts)),
+    )
 
 
 class _Part(NamedTuple):
@@ -139,13 +169,12 @@ class _Part(NamedTuple):
 
 
 class _Drawing:
-    def __init__(self, shoe: Shoe, p: ShoeParameters) -> None:
-        plan = shoe.plan
+    def __init__(self, plan: ShoePlan, p: ShoeParameters) -> None:
         assert plan.cell is not None
         assert plan.lines is not None
         assert plan.crossings is not None
-        self.side = shoe.side
-        self.ids = shoe.layout.ids.tolist()
+        self.side = plan.side
+        self.ids = plan.layout.ids.tolist()
         self.at: Array = plan.crossings
         self.taxel_lines: NDArray[np.int64] = plan.lines
         self.size = plan.cell.line_width

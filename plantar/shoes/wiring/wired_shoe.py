@@ -14,7 +14,7 @@ from plantar.shoes.checks.check import Check
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.wiring import hole_outline, pocket_outlines
 from plantar.shoes.wiring.firmware_files import firmware_sources, header_text
-from plantar.shoes.wiring.flex_board import FlexBoard, flex_board
+from plantar.shoes.wiring.flex_board import FlexBoard, flex_board, mirrored_board
 from plantar.shoes.wiring.gerber_files import gerber_zip
 from plantar.shoes.wiring.grid_router import CLEARANCE, EDGE
 from plantar.shoes.wiring.harness_drawing import draw_harness
@@ -35,14 +35,17 @@ class WiredShoe:
     drawing: bytes
 
 
-def wire_shoe(shoe: Shoe, parameters: ShoeParameters) -> WiredShoe | None:
-    """Gives the wiring of a shoe, by parameters; None where there is none, see `wiring_of`."""
+def wire_shoe(shoe: Shoe, parameters: ShoeParameters, other: WiredShoe | None = None) -> WiredShoe | None:
+    """Gives the wiring of a shoe, by parameters; None where there is none, see `wiring_of`. A sheet's board mirrors
+    that of the other foot's wired shoe, if it is given.
+    """
     wiring = wiring_of(shoe, parameters)
     if wiring is None:
         return None
     if wiring.circuit != "matrix":
         return WiredShoe(wiring, None, "", None, draw_harness(shoe, parameters, wiring, None))
-    board = flex_board(shoe, parameters)
+    drawn = None if other is None else other.board
+    board = flex_board(shoe, parameters) if drawn is None else mirrored_board(drawn)
     wiring = wiring_of(shoe, parameters, board.tail)
     assert wiring is not None
     text = kicad_text(board)

@@ -14,8 +14,9 @@ import shapely
 from plantar.shoes import build_shoe, foot_from_dimensions
 from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.checks.board_count import count_board
+from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.wiring import hole_outline, pocket_outlines
-from plantar.shoes.wiring.flex_board import comb_shapes, flex_board
+from plantar.shoes.wiring.flex_board import comb_shapes, flex_board, mirrored_board
 from plantar.shoes.wiring.gerber_files import gerber_zip
 from plantar.shoes.wiring.grid_router import CLEARANCE, EDGE
 from plantar.shoes.wiring.kicad_board import kicad_text
@@ -54,6 +55,53 @@ def test_each_taxel_is_on_one_row_and_one_column_that_lead_to_the_tail(boards):
     for shoe, build, board, text in boards:
         count = _problems(shoe, build, text)
         assert count.tail == board.tail
+
+
+def _same_board(board, other):
+    assert board.side == other.side
+    assert board.tail == other.tail
+    assert board.outline.equals(other.outline)
+    assert [(c.taxel, c.net) for c in board.combs] == [(c.taxel, c.net) for c in other.combs]
+    shapes = [[comb.shape.normalize() for comb in one.combs] for one in (board, other)]
+    assert shapes[0] == shapes[1]
+    assert [(q.net, q.layer, q.width) for q in board.pieces] == [(q.net, q.layer, q.width) for q in other.pieces]
+    np.testing.assert_array_equal([q.ends for q in board.pieces], [q.ends for q in other.pieces])
+    assert [net for net, _ in board.vias] == [net for net, _ in other.vias]
+    np.testing.assert_array_equal([place for _, place in board.vias], [place for _, place in other.vias])
+    np.testing.assert_array_equal(board.contacts, other.contacts)
+
+
+def test_the_boards_of_a_pair_are_mirror_images(boards):
+    (_, _, left, _), (_, _, right, _) = boards
+    _same_board(mirrored_board(left), right)
+    _same_board(mirrored_board(mirrored_board(left)), left)
+    flip = np.array([1.0, -1.0])
+    for k, net in enumerate(right.tail):  # a contact's number counts from the tail's other edge
+        at = left.tail.index(net)
+        assert at == len(left.tail) - 1 - k
+        np.testing.assert_array_equal(right.contacts[k], left.contacts[at] * flip)
+
+
+def test_lines_that_find_no_way_on_one_hand_are_led_as_on_the_other():
+    """A box, on whose right sheet all lines find their ways at once, and on its left one not in 40 orders."""
+    foot = foot_from_dimensions("a", length=0.22, width=0.09, corner_radius=0.01, sole_center=(0.02, 0.0), mass=20.0)
+    build = build_shoe(foot, cell=read_cell("velostat"), layout_only=True)
+    left, right = (flex_board(shoe, build.parameters) for shoe in build.shoes)
+    _same_board(mirrored_board(left), right)
+    _problems(build.shoes[0], build, kicad_text(left))
+
+
+def test_a_mirrored_foot_has_mirrored_layouts_and_boards(prism, stl):
+    points = prism(np.array([[-45, -35], [55, -35], [75, -10], [75, 25], [65, 35], [-45, 35]], dtype=float), 0.0, 40.0)
+    given = [stl(points, "left_foot.stl"), stl(points[:, ::-1] * [1.0, -1.0, 1.0], "right_foot.stl")]
+    p = ShoeParameters(robot_mass=4.0)
+    cell = read_cell("velostat")
+    builds = [build_shoe(path, cell=cell, parameters=p, layout_only=True, name="a") for path in given]
+    p = builds[0].parameters
+    for shoe, other in zip(builds[0].shoes, builds[1].shoes, strict=True):
+        np.testing.assert_array_equal(shoe.layout.positions, other.layout.positions)
+        np.testing.assert_array_equal(shoe.layout.outline, other.layout.outline)
+        _same_board(flex_board(shoe, p), flex_board(other, p))
 
 
 @pytest.mark.long
