@@ -246,6 +246,8 @@ class Judge:
         if pushed:
             self._pushed.append(time)
         self._estimates.update(com.tolist(), None if zmp is None else zmp.tolist())
+        if self.outside.springs.any():
+            self.outside.look_at_springs()
         if moved:
             self.goal.move(time, moved)
 

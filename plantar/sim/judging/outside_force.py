@@ -1,7 +1,7 @@
 """Forces on the robot that no actor of the scene applies.
 
 Pushes, hands, partners and skins act by `xfrc_applied`, too: each of them adds up what it applies, and what MuJoCo
-holds besides comes from elsewhere.
+holds besides comes from elsewhere. So does a spring on the base, which no robot has.
 """
 
 from collections.abc import Sequence
@@ -34,6 +34,7 @@ class OutsideForce:
 
     Attributes:
         forces: Kernel that compares.
+        springs: Force and torque in N and N m of springs on the base.
         largest: Largest force or torque in N or N m of a body or joint that no actor applies.
         where: Body or joint that it acts on, and `since` when in s a first one did.
     """
@@ -44,6 +45,9 @@ class OutsideForce:
         self._on_bodies = data.xfrc_applied
         self._on_joints = data.qfrc_applied
         self._own = np.flatnonzero(model.body_rootid[model.dof_bodyid] == base).astype(np.intp)
+        first = int(model.body_dofadr[base])
+        self.springs = data.qfrc_spring[first : first + int(model.body_dofnum[base])]
+        self._base = model.body(base).name
         self._actors = tuple(actors)
         self._known = np.zeros((model.nbody, 6))
         self.forces = AppliedForces(self._on_bodies, self._known, self._on_joints, self._own, _ROUNDING)
@@ -71,6 +75,10 @@ class OutsideForce:
         torques = np.abs(self._on_joints[self._own])
         axis = int(torques.argmax())
         self._found(float(torques[axis]), self._model.joint(self._model.dof_jntid[self._own[axis]]).name)
+
+    def look_at_springs(self) -> None:
+        """Keep what `springs` hold the base with."""
+        self._found(float(np.abs(self.springs).max()), self._base)
 
     def _found(self, size: float, where: str) -> None:
         if size <= _ROUNDING:  # what is no number is found, too

@@ -153,6 +153,8 @@ def verdict_of(
     impacts = [landing.impact / run.body.weight for landing in judge.landings]
     why += limit_reasons(impacts, run.ground.level_at(run.scene.terrain.height), judge.joints.share_at_limit)
     why += judge.others.reasons() + judge.outside.reasons()
+    if run.touched is not None:
+        why += run.touched.support.reasons()
     for criterion in run.scene.outcome.values():
         why += criterion.reasons(run)
     final = {

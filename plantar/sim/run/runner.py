@@ -134,7 +134,7 @@ class Simulation(Run):
             return None
         reach = self.scene.terrain.height + self.settings.com_height
         plan = (lambda: self.controller.schedule, self.feet, self.steps)
-        return Touched(self.scene, skin, self.body, *plan, self.seed, reach, self.worn)
+        return Touched(self.scene, skin, self.body, *plan, self.seed, reach, self.settings.period, self.worn)
 
     def _sensor_suite(self) -> SensorSuite:
         sensing = self.scene.sensing

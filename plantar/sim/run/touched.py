@@ -15,6 +15,7 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.judging.criteria.criterion import not_measured
 from plantar.sim.judging.guide_truth import GuideTruth
+from plantar.sim.judging.partner_support import PartnerSupport
 from plantar.sim.judging.push_truth import Pushed, PushTruth, step_changes, strides
 from plantar.sim.judging.step_count import Stand
 from plantar.sim.model.world import World
@@ -31,8 +32,8 @@ class Touched:
     """Hands and partner, from plan to verdict.
 
     `schedule`: returns the walk's planned phases; `seed` of noise and open choices; `reach`: a partner's hand height in
-    the world in m; `worn`: the moving arm, or None. Attributes `partners` to be added to the world; `touch` in the
-    world; None before `enter`.
+    the world in m; `period` of control in s; `worn`: the moving arm, or None. Attributes `partners` to be added to the
+    world; `touch` in the world; None before `enter`; `support`: how much they carry.
     """
 
     def __init__(
@@ -45,8 +46,10 @@ class Touched:
         steps: Sequence[Footstep],
         seed: int,
         reach: float,
+        period: float,
         worn: WornArm | None = None,
     ) -> None:
+        self.support = PartnerSupport(body, period)
         self._scene = scene
         self._skin = skin
         self._body = body
@@ -85,6 +88,8 @@ class Touched:
 
     def update(self, world: World, time: float, zmp: NDArray[np.float64] | None) -> None:
         """Take true `zmp` (2,) in m, or None, at `time` in s in the `world`, after its physics step."""
+        if self.touch is not None:
+            self.support.update(self.touch.force)
         if self.touch is not None and self.hands is not None:
             com = world.data.subtree_com[world.torso]
             self._truth.update(time, com, zmp, self.touch.wrench)

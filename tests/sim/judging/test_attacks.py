@@ -163,6 +163,42 @@ def test_more_than_the_scenes_own_push_is_a_force_from_outside(monkeypatch: pyte
     assert "outside_force" in criteria(run_scene(load_scene("push", [*SHORT, "push.step=1"]), 1))
 
 
+@pytest.mark.sample(1)
+@pytest.mark.parametrize(
+    ("force", "reason"), [((-60.0, 0.0, 0.0), "leaned"), ((0.0, 60.0, 0.0), "leaned"), ((0.0, 0.0, 30.0), "carried")]
+)
+def test_a_robot_that_leans_on_its_partner_does_not_walk(force: tuple[float, float, float], reason: str) -> None:
+    """With 60 N aside or 30 N upwards of its 840: partner and skin are the scene's own, and it may walk as well."""
+    simulation = Simulation(load_scene("leader-follower", SHORT))
+    assert simulation.touch is not None
+    sensor = simulation.touch.sensor
+    apply = sensor.apply
+
+    def carries(data: Any) -> None:
+        sensor._dirty = True
+        apply(data)
+        torso = simulation.world.torso
+        sensor.wrenches[0, :3] += force
+        for applied in (sensor._applied, data.xfrc_applied):
+            applied[torso, :3] += force
+
+    sensor.apply = carries  # type: ignore[method-assign]
+    simulation.touch.partners[0].near = lambda time: True  # type: ignore[method-assign]
+    found = criteria(simulation.run())
+    assert reason in found
+    assert "outside_force" not in found
+
+
+@pytest.mark.sample(1)
+@pytest.mark.parametrize("scene", ["leader-follower", "guide", "push-step", "box-step"])
+def test_hands_and_partners_of_the_scenes_carry_no_robot(scene: str) -> None:
+    (seed,) = drawn_seeds(test_hands_and_partners_of_the_scenes_carry_no_robot, 1)
+    simulation = Simulation(load_scene(scene, ["settle=0.3"]), seed)
+    simulation.run()
+    assert simulation.touched is not None
+    assert simulation.touched.support.reasons() == []
+
+
 def test_lighter_gravity_does_not_count() -> None:
     """Newton's law of vertical motion in single support: a tenth of the weight is missing."""
     simulation = Simulation(load_scene("flat", BELIEVES))

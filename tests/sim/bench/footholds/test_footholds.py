@@ -181,6 +181,16 @@ def weigh_less(time, action):
     simulation().world.model.opt.gravity[2] = -8.0
 
 
+def lean(time, action):
+    """On a partner that nobody sees: a spring that goes along with the base."""
+    world = simulation().world
+    model = world.model
+    joint = model.body_jntadr[model.body_rootid[world.torso]]
+    model.jnt_stiffness[joint] = 2000.0
+    model.qpos_spring[:7] = world.data.qpos[:7]
+    model.qpos_spring[2] += 0.02
+
+
 KNEES = [
     f"{side}_{joint}"
     for side in ("left", "right")
@@ -194,6 +204,7 @@ KNEES = [
     [
         (lift, "outside_force"),
         (hold, "outside_force"),
+        (lean, "outside_force"),
         (stop_early, "steps"),
         (slide, "steps"),
         (kneel, "fall"),
