@@ -19,7 +19,7 @@ class ContactReader:
     """Gathers the contacts of several feet of one simulation.
 
     `feet`: ids of each foot's geoms. Attribute `read`: returns each foot's contacts after the last `mj_step` or
-    `mj_forward`, in reused objects.
+    `mj_forward`, in reused objects; `kernel`: what reads them.
     """
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
@@ -30,8 +30,8 @@ class ContactReader:
         for mask, geom_ids in zip(own, feet, strict=True):
             mask[list(geom_ids)] = 1
         self._feet = tuple(FootContacts(mask) for mask in own)
-        self._kernel = FeetReader(self._data, self._model.opt, self._feet, self._listed)
-        self.read: Callable[[], tuple[FootContacts, ...]] = self._kernel.read
+        self.kernel = FeetReader(self._data, self._model.opt, self._feet, self._listed)
+        self.read: Callable[[], tuple[FootContacts, ...]] = self.kernel.read
         if getattr(self._model, "flg_adhesion", False):  # of geoms, since MuJoCo 4
             self.read = self._read_sticking
 
@@ -42,10 +42,10 @@ class ContactReader:
 
     def _read_sticking(self) -> tuple[FootContacts, ...]:
         """`read` of geoms that stick, whose forces are less their adhesion."""
-        feet = self._kernel.read()
-        count = self._kernel.count
+        feet = self.kernel.read()
+        count = self.kernel.count
         if count:
-            gather_feet(feet, self._kernel.of_present(count), _net_forces(self._data, self._model.opt.cone))
+            gather_feet(feet, self.kernel.of_present(count), _net_forces(self._data, self._model.opt.cone))
         return self._feet
 
 

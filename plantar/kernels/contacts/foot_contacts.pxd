@@ -1,4 +1,6 @@
 cimport cython
+from ..base cimport fused_in_c as fused
+from ..base cimport pointers as memory
 from ..geometry.few_points cimport FewPoints
 
 @cython.final
@@ -10,8 +12,8 @@ cdef class ContactList:
     cdef bint pyramid
     cdef const double[:, :] friction
 
-@cython.locals(foot=FootContacts)
-cpdef int gather_feet(tuple feet, ContactList listed, const double[:] forces) except -1
+@cython.locals(foot=FootContacts, values="const double*")
+cpdef int gather_feet(tuple feet, ContactList listed, forces) except -1
 
 @cython.final
 cdef class FeetReader:
@@ -38,8 +40,9 @@ cdef class FootContacts:
     cpdef take(
         self, const int[:, :] ids, const double[:, :] vectors, const double[:] gaps, const unsigned char[:] carries
     )
+    cpdef int gather(self, ContactList listed, forces) except -1
     @cython.locals(sign=double)
-    cpdef int gather(self, ContactList listed, const double[:] forces) except -1
+    cdef int _gather(self, ContactList listed, const double* forces) except -1
     cpdef void from_origin(self, const double[:] origin, double[:, ::1] out) noexcept
     @cython.locals(fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, height=double)
     cpdef int add_to_ground(
@@ -53,14 +56,11 @@ cdef class FootContacts:
     ) noexcept
 
 @cython.locals(value=double)
-cdef double _along(ContactList listed, const double[:] forces, Py_ssize_t i, Py_ssize_t m) noexcept
-
-cdef object _dot
+cdef double _along(ContactList listed, const double* forces, Py_ssize_t i, Py_ssize_t m) noexcept
 
 @cython.final
 cdef class ContactsInSole:
     cdef const double[::1] origin
-    cdef object rotation
     cdef readonly Py_ssize_t pressed, in_air
     cdef Py_ssize_t room
     cdef double[:, ::1] shifted
@@ -71,7 +71,6 @@ cdef class ContactsInSole:
     cdef double[::1] own_origin
     cdef double[:, ::1] own_axes
     cdef bint rides
-    cdef list rows, heads
     cpdef look_from(self, const double[::1] origin, rotation)
     cdef _make_room(self, Py_ssize_t room)
     cpdef ride_on(

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ..base import fused, memory
+
 __all__ = ["ContactList", "ContactsInSole", "FeetReader", "FootContacts", "gather_feet"]
 
 
@@ -31,8 +33,9 @@ class ContactList:
 
 def gather_feet(feet, listed, forces):
     """Gather the contacts of several feet. `forces`: forces in N and torques in N m of all contacts."""
+    values = memory.values(forces)
     for foot in feet:
-        foot.gather(listed, forces)
+        foot._gather(listed, values)
 
 
 class FeetReader:
@@ -129,6 +132,9 @@ class FootContacts:
 
         `forces`: forces in N and torques in N m on each second geom.
         """
+        self._gather(listed, memory.values(forces))
+
+    def _gather(self, listed, forces):
         count = listed.geoms.shape[0]
         if count > self.room:
             self._make_room(2 * count)
@@ -275,9 +281,6 @@ def _along(listed, forces, i, m):
     return value
 
 
-_dot = np.dot
-
-
 class ContactsInSole:
     """Turns a foot's contacts into its sole frame.
 
@@ -287,7 +290,6 @@ class ContactsInSole:
 
     def __init__(self):
         self.origin = np.zeros(3)
-        self.rotation = np.eye(3)
         self.axes = np.eye(3)
         self.rides = False
         self.pressed = 0
@@ -298,7 +300,6 @@ class ContactsInSole:
     def look_from(self, origin, rotation):
         """Set origin (3,) in m and rotation (3, 3) to world of the sole."""
         self.origin = origin
-        self.rotation = rotation
         self.axes = rotation
         self.rides = False
 
@@ -334,13 +335,9 @@ class ContactsInSole:
 
     def _make_room(self, room):
         self.room = room
-        shifted = np.zeros((3 * room, 3))
-        turned = np.zeros((3 * room, 3))
-        self.shifted = shifted
-        self.vectors = turned
+        self.shifted = np.zeros((3 * room, 3))
+        self.vectors = np.zeros((3 * room, 3))
         self.normals = np.zeros((room, 3))
-        self.rows = [(shifted[k : k + 1], turned[k : k + 1]) for k in range(3)]
-        self.heads = [(shifted[: 3 * k], turned[: 3 * k]) for k in range(room + 1)]
 
     def turn(self, contacts):
         """Turn the current contacts of a foot's `FootContacts`."""
@@ -352,8 +349,17 @@ class ContactsInSole:
         if count > self.room:
             self._make_room(2 * count)
         contacts.from_origin(self.origin, self.shifted)
-        if self.rides:
-            turn = self.axes
+        turn = self.axes
+        # Summed in the order of BLAS, whose call took longer than all the rest: what rides on a body never used it.
+        if not self.rides and count > 1:
+            for k in range(3 * count):
+                for j in range(3):
+                    self.vectors[k, j] = fused.multiply_add(
+                        self.shifted[k, 2],
+                        turn[2, j],
+                        fused.multiply_add(self.shifted[k, 1], turn[1, j], self.shifted[k, 0] * turn[0, j]),
+                    )
+        else:
             for k in range(3 * count):
                 for j in range(3):
                     self.vectors[k, j] = (
@@ -361,12 +367,6 @@ class ContactsInSole:
                         + self.shifted[k, 1] * turn[1, j]
                         + self.shifted[k, 2] * turn[2, j]
                     )
-        elif count == 1:  # BLAS adds up in another order for a single contact than for several
-            for shifted, turned in self.rows:
-                _dot(shifted, self.rotation, turned)
-        else:
-            shifted, turned = self.heads[count]
-            _dot(shifted, self.rotation, turned)
 
     def turn_normals(self, contacts):
         """Turn the contacts' normals too, of the last `turn`."""

@@ -12,7 +12,8 @@ cdef class GroundReaction:
     cdef readonly double[::1] loads
     cdef double[::1] sums
     cdef FewPoints support, sole
-    cdef list ends
+    cdef Py_ssize_t[::1] ends
+    cdef Py_ssize_t feet
     cdef readonly bint found
     cdef readonly double x, y, margin
     @cython.locals(foot=FootContacts, number=Py_ssize_t)

@@ -27,7 +27,8 @@ class GroundReaction:
         self.sums = np.zeros(7)
         self.support = few_points.FewPoints()
         self.sole = few_points.FewPoints()
-        self.ends = [0]
+        self.feet = 0
+        self.ends = np.zeros(3, dtype=np.intp)
         self.found = False
         self.x = _NONE
         self.y = _NONE
@@ -38,14 +39,15 @@ class GroundReaction:
         for i in range(7):
             self.sums[i] = 0.0
         self.support.clear()
-        self.ends = [0]
-        if len(feet) > self.loads.shape[0]:
-            self.loads = np.zeros(len(feet))
+        self.feet = len(feet)
+        if self.feet > self.loads.shape[0]:
+            self.loads = np.zeros(self.feet)
+            self.ends = np.zeros(self.feet + 1, dtype=np.intp)
         for number, foot in enumerate(feet):
             before = self.sums[2]
             foot.add_to_ground(self.reach, self.ground, self.sums, self.support)
             self.loads[number] = self.sums[2] - before
-            self.ends.append(self.support.count)
+            self.ends[number + 1] = self.support.count
         self.support.hull(0, self.support.count)
         self._find_zmp()
 
@@ -85,7 +87,7 @@ class GroundReaction:
         """
         wrench = np.array(self.sums[:6])
         points = []
-        for foot in range(len(self.ends) - 1):
+        for foot in range(self.feet):
             points.append(self.support.points_of(self.ends[foot], self.ends[foot + 1]))
         ring = self.support.corners_of()
         if not self.found:

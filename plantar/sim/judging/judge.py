@@ -198,7 +198,7 @@ class Judge:
         self.feet = feet
         if self.actors:
             self.outside.expect()
-        seen: int = self._watch.step(feet, self.world.data.ncon)
+        seen: int = self._watch.step(feet, self._contacts.kernel.count)
         if self.pieces is not None:
             self.pieces.loads.step(feet)
         if seen:
