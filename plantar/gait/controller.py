@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plantar.common.sides import SIDES, Side
+from plantar.gait.balance.law import BalanceState
 from plantar.gait.balance.load_transfer import OpenLoop
 from plantar.gait.command import Command, FootTarget, Motors, Sensors
 from plantar.gait.contact.ankle_limits import AnkleLimits
@@ -221,13 +222,12 @@ class WalkingController:
         time = sensors.time
         footing = self.footing
         body = self.estimation.body
-        sensed = self.estimation.sense(sensors, self.schedule.at(time))
+        sensed = self.estimation.sense(sensors, self.plan.view.schedule.at(time))
         legs = self.momentum.at(time)
-        planned = self.plan.at(time).com_acceleration + legs.com_acceleration
-        state = self.estimation.update(sensors, sensed, planned, self.momentum.foot_acceleration(legs))
-        whole = self.estimation.dcm(state)
+        planned, swing = self.momentum.accelerations(self.plan.at(time), legs)
+        state = self.estimation.update(sensors, sensed, planned, swing)
+        whole, dcm = self.momentum.dcms(state, legs)
         feedback = self.settings.feedback and not self.estimation.stands
-        dcm = whole - legs.dcm  # of the pendulum that is planned and balanced
         if feedback:
             footing.align(state)
         feet = footing.swing(sensed, state, feedback)
@@ -242,12 +242,13 @@ class WalkingController:
             region = footing.zmp_region(phase, footing.follow(phase, time))
         reference = self.plan.at(time)
         law = self.balance if feedback else self._open_loop
-        aim, region = footing.regulated(phase, time, tick.pendulum, region if feedback else _UNBOUNDED_REGION)
+        region = region if feedback else _UNBOUNDED_REGION
+        aim, region = footing.regulated(phase, time, reference, tick.pendulum, region)
         balanced = law.update(aim, dcm, state.zmp, region, tick.firm)
         if feedback:
             footing.conform(phase, balanced.zmp_desired, state, sensed)
-        acceleration = balanced.com_acceleration + legs.com_acceleration
-        balanced = balanced.changed(com=balanced.com + legs.com, com_acceleration=acceleration)
+        com, acceleration, momentum = self.momentum.added(balanced.com, balanced.com_acceleration, legs)
+        balanced = BalanceState(balanced.zmp_desired, com, balanced.com_velocity, acceleration)
         com, torso, posture = self.body_targets.at(phase, balanced.com, 0.0 if body is None else body.lean, state)
         # Before the first step the feet stand as they were put, and do not press against each other.
         rests = feedback and phase.kind == PhaseKind.STANDING and phase.step > 0
@@ -269,6 +270,6 @@ class WalkingController:
             ankle_loads=sensed.ankles,
             footholds=tick.found,
             moved_steps=moved,
-            momentum=-legs.vrp - 2.0 * self.settings.leg_inertia.turning * acceleration,
+            momentum=momentum,
             joint_offsets=None if body is None else body.joint_offsets,
         )

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.common.arrays import read_only
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels.gait.touching_cells import TouchingCells
-from plantar.kernels.geometry import convex
+from plantar.kernels.gait.touching_cells import TouchingCells, encloses
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
 
@@ -79,7 +78,4 @@ class ContactMemory:
 
     def encloses(self, point: NDArray[np.float64]) -> bool:
         """Whether a point (2,), sole frame, in m, lies between the contacts."""
-        polygon = self.polygon
-        # A hull is convex: it needs no check.
-        x, y = point.tolist()
-        return len(polygon) >= 3 and bool(convex.signed_margin(polygon, x, y) >= 0.0)
+        return bool(encloses(self.polygon, point))

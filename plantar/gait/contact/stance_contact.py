@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.arrays import read_only
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import fixed, number, switch
 from plantar.geometry.polygon import area, centroid, signed_margin
@@ -19,6 +20,7 @@ from plantar.sensing.activation import TaxelActivation
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading
 
+_NO_LINES = read_only(np.empty((0, 3)))
 _DENIALS = 3  # times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
 _IN_SIGHT = 1.5  # times a step down, below the range's end, from where a sole's sight of the ground counts
 _BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that rises: what still lies under it
@@ -206,8 +208,10 @@ class StanceContact:
         if not looks:
             return None
         if self._edges_of != looks:  # a new view
-            idle = self._depth > self.settings.step_down
-            self._edges = self._fit.between(np.isfinite(self._depth) & ~idle, idle)
+            self._edges = _NO_LINES
+            if self._sight.shows(self.settings.step_down):
+                idle = self._depth > self.settings.step_down
+                self._edges = self._fit.between(np.isfinite(self._depth) & ~idle, idle)
             self._edges_of = looks
         return self._edges
 

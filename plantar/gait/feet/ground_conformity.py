@@ -22,6 +22,7 @@ from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.contact_memory import ContactMemory
 from plantar.gait.plan.phases import Phase
 from plantar.kernels.base.vectors import vector2
+from plantar.kernels.gait.touching_cells import along_sole
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
@@ -184,7 +185,7 @@ class GroundConformity:
             rotation = state.rotations_sole[side]
             contacts.update(percepts[side].reading, rotation, cop)
             if phase.stance == side:
-                target = _along_sole(rotation, state.positions_sole[side], zmp_desired)
+                target = along_sole(rotation, state.positions_sole[side], zmp_desired)
                 # Once the other foot is down, the desired ZMP may lie beyond this sole: no turn brings the load there.
                 if self.turns_stance and side not in parts and not landed and not contacts.encloses(target):
                     turned[side] = SoleTurn(turns.stance(load, cop, target), _ORIGIN)
@@ -196,14 +197,3 @@ class GroundConformity:
                     continue
             turns.hold(cop)
         return turned
-
-
-def _along_sole(
-    rotation: NDArray[np.float64], position: NDArray[np.float64], point: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Way (2,) in m from a sole's origin to a point (2,) in the world, along the sole's axes seen from above."""
-    xx, xy, _, yx, yy, _, _, _, _ = rotation.ravel().tolist()
-    x, y = point.tolist()
-    dx = x - position.item(0)
-    dy = y - position.item(1)
-    return vector2(xx * dx + yx * dy, xy * dx + yy * dy)

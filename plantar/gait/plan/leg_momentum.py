@@ -20,6 +20,8 @@ from numpy.typing import NDArray
 
 from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.gait.plan.walk_plan import PlanView, WalkPlan
+from plantar.kernels.gait import leg_shift
+from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
 
@@ -61,9 +63,28 @@ class LegMomentum:
             self._look_ahead(time)
         return self._shift.at(time)
 
-    def foot_acceleration(self, shift: LipReference) -> NDArray[np.float64]:
-        """f'' (2,) in m/s^2 of the swinging foot at a `shift`; 0 without inertia."""
-        return shift.vrp / -self._inertia if self._inertia else shift.vrp
+    def accelerations(
+        self, reference: LipReference, shift: LipReference
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Planned with a `shift`, (2,) in m/s^2: the CoM's, and f'' of the swinging foot; 0 without inertia."""
+        if not self._inertia:
+            return reference.com_acceleration, shift.vrp
+        com, foot = leg_shift.accelerations(reference, shift, self._inertia)
+        return com, foot
+
+    def dcms(self, state: BaseState, shift: LipReference) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """A state's DCM (2,) in m (T 4.27), and that of the pendulum that is planned, without a `shift`."""
+        whole, own = leg_shift.dcms(state, shift, self._omega)
+        return whole, own
+
+    def added(
+        self, com: NDArray[np.float64], acceleration: NDArray[np.float64], shift: LipReference
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Returns a pendulum's `com` (2,) in m and `acceleration` (2,) in m/s^2 with a `shift`, and (-L_y', L_x')
+        / (m g) (2,) in m that the feet's forces give.
+        """
+        place, rate, momentum = leg_shift.added(com, acceleration, shift, self._inertia)
+        return place, rate, momentum
 
     def _look_ahead(self, time: float) -> None:
         """Solve the next swings' shift from the CoM's now."""

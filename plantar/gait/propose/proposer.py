@@ -3,7 +3,6 @@
 Each tick a proposer receives a frozen `Tick` and returns a `PlanChange` or None; `Tick.plan.last` is the applied one.
 """
 
-import math
 from collections.abc import Mapping
 from enum import IntEnum
 from types import MappingProxyType
@@ -12,10 +11,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.arrays import read_only
 from plantar.common.record import Record
 from plantar.common.sides import Side
 from plantar.gait.contact.foot_contacts import FootholdFound, FootholdSeen
+from plantar.gait.estimate.push_estimate import NO_PUSH
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase
@@ -23,7 +22,7 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.kernels.gait.command_frame import CommandFrame
-from plantar.kernels.geometry import convex
+from plantar.kernels.gait.pendulum_miss import best_zmp
 from plantar.sensing.reading import Reading
 
 
@@ -57,8 +56,8 @@ class Pendulum(Record, frozen=True):
     reference: LipReference
     goal: NDArray[np.float64]
     zmp_region: NDArray[np.float64]
-    offset: NDArray[np.float64] = read_only(np.zeros(2))
-    pushed: NDArray[np.float64] = read_only(np.zeros(2))
+    offset: NDArray[np.float64] = NO_PUSH
+    pushed: NDArray[np.float64] = NO_PUSH
 
     def beyond_zmp(self, left: float) -> tuple[float, tuple[float, float], tuple[float, float]]:
         """DCM's miss of its goal after `left` seconds T, for the best ZMP (K 25-27), in plain numbers.
@@ -66,12 +65,8 @@ class Pendulum(Record, frozen=True):
         Returns e^(w T) - 1; ZMP (x, y) in m that reaches the goal; the nearest of `zmp_region`, not empty. The miss is
         the first times the distance of these two.
         """
-        growth = math.expm1(self.omega * left)
-        x, y = self.dcm.tolist()
-        gx, gy = self.goal.tolist()
-        wx, wy = self.offset.tolist()
-        wanted = x + (x - gx) / growth + wx, y + (y - gy) / growth + wy
-        return growth, wanted, convex.nearest(self.zmp_region, *wanted)
+        found: tuple[float, tuple[float, float], tuple[float, float]] = best_zmp(self, left)
+        return found
 
 
 class Tick(Record, frozen=True):

@@ -25,12 +25,16 @@ from plantar.gait.balance.ankle_strategy import (
     single_support_vrp,
     within_support,
 )
+from plantar.gait.estimate.push_estimate import NO_PUSH
 from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import Phase
 from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import PlanView
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.kernels.gait.pendulum_miss import missed_by
 from plantar.kernels.geometry import convex
 
 _PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
@@ -143,6 +147,7 @@ class StepAdjustment:
         self._stands = -1
         self._foot: _Foot | None = None
         self._along: _Along | None = None
+        self._absorbed: tuple[PlanView, Phase, NDArray[np.float64], float] | None = None  # of what, and in m
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another footstep where that helps, or its place now."""
@@ -167,9 +172,9 @@ class StepAdjustment:
         if self._ankle.law == "regulation":
             return self._beyond_ankles(tick, pendulum, foot, left, swing)
         # An error grows at most as without any feedback.
-        off = math.dist(pendulum.dcm, pendulum.reference.dcm) + math.hypot(
-            *(pendulum.offset + pendulum.pushed).tolist()
-        )
+        off = math.dist(pendulum.dcm.tolist(), pendulum.reference.dcm.tolist())
+        if pendulum.offset is not NO_PUSH or pendulum.pushed is not NO_PUSH:
+            off += math.hypot(*(pendulum.offset + pendulum.pushed).tolist())
         if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
             return None
         missed = math.hypot(*_missed(pendulum, left))
@@ -186,12 +191,17 @@ class StepAdjustment:
     def _allowed(self, tick: Tick, pendulum: Pendulum) -> float:
         """Final DCM error in m that moves no step: at first what a ZMP b off takes up in a double support."""
         phase = tick.phase
-        most = self._rules.least_error
         if self._adjusted == phase.step:
-            return most
-        following = tick.plan.schedule.following(phase)
-        taken = 1.0 - math.exp(-pendulum.omega * (following.end - following.start))
-        return max(most, taken * signed_margin(pendulum.zmp_region, tick.plan.stance_vrp(phase.step)))
+            return self._rules.least_error
+        known = self._absorbed
+        # A phase has one region and one plan, mostly.
+        if known is None or known[0] is not tick.plan or known[1] is not phase or known[2] is not pendulum.zmp_region:
+            following = tick.plan.schedule.following(phase)
+            taken = 1.0 - math.exp(-pendulum.omega * (following.end - following.start))
+            most = taken * signed_margin(pendulum.zmp_region, tick.plan.stance_vrp(phase.step))
+            known = (tick.plan, phase, pendulum.zmp_region, max(self._rules.least_error, most))
+            self._absorbed = known
+        return known[3]
 
     def _step_elsewhere(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side
@@ -215,21 +225,19 @@ class StepAdjustment:
 
     def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side) -> PlanChange | None:
         """The step farther along a push, beyond its moves so far; it never returns by itself."""
+        if pendulum.pushed is NO_PUSH or left < self._rules.least_left:
+            return None
+        px, py = pendulum.pushed.tolist()
+        size = math.hypot(px, py)
         step = tick.phase.step
-        planned = tick.plan.foothold(tick.phase.step)
         if self._along is None or self._along.step != step:
             self._along = _Along(step, (0.0, 0.0))
         yields = self._rules.yielding * (1.0 - self._rules.confidence)
-        px, py = pendulum.pushed.tolist()
-        size = math.hypot(px, py)
         mx, my = self._along.moved
         more = yields * px - mx, yields * py - my
-        if (
-            left < self._rules.least_left
-            or size == 0.0
-            or more[0] * px + more[1] * py <= self._rules.least_error * size
-        ):
+        if size == 0.0 or more[0] * px + more[1] * py <= self._rules.least_error * size:
             return None
+        planned = tick.plan.foothold(step)
         (x, y), _ = self._landing(foot, (planned.x + more[0], planned.y + more[1]), left, self._region(tick, swing))
         dx = x - planned.x
         dy = y - planned.y
@@ -246,13 +254,14 @@ class StepAdjustment:
         return shrunk_support(support, self._ankle, middle, yaw)
 
     def _follow(self, tick: Tick, swing: Side) -> _Foot:
-        now = tick.place(swing)
+        position, yaw = tick.feet.footholds[swing]
+        x, y, _ = tick.frame.to_world(position).tolist()
         before = self._foot
         velocity = (0.0, 0.0)
         if before is not None and before.step == tick.phase.step:
-            x, y = before.place
-            velocity = (now.x - x) / self._period, (now.y - y) / self._period
-        self._foot = _Foot(tick.phase.step, (now.x, now.y), now.yaw, velocity)
+            was_x, was_y = before.place
+            velocity = (x - was_x) / self._period, (y - was_y) / self._period
+        self._foot = _Foot(tick.phase.step, (x, y), yaw + tick.frame.turn, velocity)
         return self._foot
 
     def _change(self, tick: Tick, found: _Choice | None, left: float) -> PlanChange | None:
@@ -419,14 +428,8 @@ def _moved(planned: Footstep, step: int, move: tuple[float, float], reason: str,
 
 def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
     """DCM error (x, y) in m after a time in s with the best ZMP."""
-    px, py = pendulum.beyond_zmp(left)[2]
-    wx, wy = pendulum.offset.tolist()
-    x, y = pendulum.dcm.tolist()
-    gx, gy = pendulum.goal.tolist()
-    grown = math.exp(pendulum.omega * left)
-    ux = px - wx
-    uy = py - wy
-    return ux + grown * (x - ux) - gx, uy + grown * (y - uy) - gy
+    missed: tuple[float, float] = missed_by(pendulum, left)
+    return missed
 
 
 def _slope(tick: Tick, pendulum: Pendulum) -> float:

@@ -18,7 +18,6 @@ from plantar.gait.estimate.push_estimate import PushEstimate
 from plantar.gait.estimate.skin_load import percept_to_its_limit
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase
-from plantar.kernels.base.vectors import vector2
 from plantar.kernels.gait.gyro_bias import SteadyLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
@@ -132,12 +131,6 @@ class Estimation:
         self._rotations = state.rotations_sole
         self._state = state
         return state
-
-    def dcm(self, state: BaseState) -> NDArray[np.float64]:
-        """A state's DCM (2,) in m (T 4.27)."""
-        x, y, _ = state.com.tolist()
-        vx, vy, _ = state.com_velocity.tolist()
-        return vector2(x + vx / self.omega, y + vy / self.omega)
 
     def _identify(self, body: IdentifiedBody, sensors: Sensors, sensed: Sensed) -> None:
         if self.stands:

@@ -12,5 +12,6 @@ cdef class SeenDepth:
     cdef double[::1] work
     cdef readonly Py_ssize_t looks
     cpdef void lift(self) noexcept
+    cpdef bint shows(self, double depth) noexcept
     @cython.locals(ground=double, share=double, depth=double, sound=bint)
     cpdef void look(self, distance) except *

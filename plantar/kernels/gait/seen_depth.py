@@ -40,6 +40,13 @@ class SeenDepth:
         for i in range(self.depth.shape[0]):
             self.depth[i] = 0.0
 
+    def shows(self, depth):
+        """Whether a taxel has seen ground deeper than a `depth` in m."""
+        for i in range(self.depth.shape[0]):  # noqa: SIM110  compiled, a loop is what is quick
+            if self.depth[i] > depth:
+                return True
+        return False
+
     def look(self, distance):
         """Add a reading of distances (n,) in m; inf out of range, NaN or -inf of a dead taxel."""
         given = memory.values(distance)

@@ -1,5 +1,7 @@
 cimport cython
 from ..base cimport pointers as memory
+from ..base cimport vectors
+from ..geometry cimport convex
 
 cdef double _INFINITE
 
@@ -15,3 +17,7 @@ cdef class TouchingCells:
     cpdef bint carry(self, force, rotation) except -1
     @cython.locals(changed=bint)
     cpdef bint turn(self, rotation, center_of_pressure) except -1
+
+cpdef bint encloses(polygon, point) except -1
+@cython.locals(dx=double, dy=double)
+cpdef object along_sole(rotation, position, point)

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from ..base import memory
+from ..base import memory, vectors
+from ..geometry import convex
 
-__all__ = ["TouchingCells"]
+__all__ = ["TouchingCells", "along_sole", "encloses"]
 
 _INFINITE = float("inf")
 
@@ -79,3 +80,24 @@ class TouchingCells:
                     self.touches[i] = 0
                     changed = True
         return changed
+
+
+def encloses(polygon, point):
+    """Whether a point (2,) in m lies in a convex polygon (k, 2) in m, or on it; none of fewer than three corners."""
+    if len(polygon) < 3:
+        return False
+    place = memory.values(point)
+    return convex.signed_margin(polygon, place[0], place[1]) >= 0.0
+
+
+def along_sole(rotation, position, point):
+    """Way (2,) in m from a sole's origin to a point (2,) in the world, along the sole's axes seen from above.
+
+    `rotation`: sole to world (3, 3); `position`: sole's origin (3,) in the world in m.
+    """
+    r = memory.values(rotation)
+    at = memory.values(position)
+    to = memory.values(point)
+    dx = to[0] - at[0]
+    dy = to[1] - at[1]
+    return vectors.vector2(r[0] * dx + r[3] * dy, r[1] * dx + r[4] * dy)

@@ -5,6 +5,8 @@ from libc cimport math
 
 cdef double _INFINITE, _FAST, _TURNED, _SPIN, _SHOCK
 
+cpdef bint are_finite(joints, gyro, accelerometer) except -1
+cdef bint _finite(array) except -1
 cpdef double away_from_feet(com, left, right) except? -1.0
 cpdef double height_of_upright(rotation, com, left, right, double least) except? -1.0
 

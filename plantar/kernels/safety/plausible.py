@@ -6,13 +6,26 @@ import numpy as np
 
 from ..base import memory
 
-__all__ = ["BodyCheck", "SoleCheck", "TargetMoves", "away_from_feet", "height_of_upright"]
+__all__ = ["BodyCheck", "SoleCheck", "TargetMoves", "are_finite", "away_from_feet", "height_of_upright"]
 
 _INFINITE = float("inf")
 _FAST = 0.25  # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz
 _TURNED = 12.0  # rad: beyond, no joint of a leg has an angle
 _SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
 _SHOCK = 400.0  # m/s^2
+
+
+def are_finite(joints, gyro, accelerometer):
+    """Whether every number of joint angles (k,), angular velocity (3,) and specific force (3,) is finite."""
+    return _finite(joints) and _finite(gyro) and _finite(accelerometer)
+
+
+def _finite(array):
+    given = memory.values(array)
+    for i in range(len(array)):  # noqa: SIM110  compiled, a loop is what is quick
+        if not math.fabs(given[i]) < _INFINITE:
+            return False
+    return True
 
 
 class BodyCheck:

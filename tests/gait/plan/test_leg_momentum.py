@@ -51,7 +51,7 @@ def missed(robot, legs, leg: LegInertia) -> np.ndarray:
         error = legs.follow(np.array([*reference.com, height]), np.eye(3), places, dict.fromkeys(SIDES, np.eye(3)), 5)
         assert error < 1e-4
         postures.append(legs.configuration)
-        base = leg.base_acceleration(reference.com_acceleration, momentum.foot_acceleration(shift))
+        base = leg.base_acceleration(reference.com_acceleration, momentum.accelerations(reference, shift)[1])
         wanted.append([*reference.vrp, *base])
         alone.append(phase.kind == PhaseKind.SINGLE_SUPPORT)
     found, (before, after) = [], np.zeros((2, model.nv))
@@ -139,7 +139,8 @@ def test_a_foot_moves_as_the_plan_counts_on_and_as_gently_as_there_is_time_for(l
     start, end = np.zeros(3), np.array([2.0 * length, 0.0, 0.0])
     swing = PolynomialSwing().begin(SwingStart(start, 0.0, end, 0.0, 0.05, single, PERIOD, 0.1, sees_ground=True))
     times = np.arange(0.0, single, PERIOD)
-    counted = np.array([momentum.foot_acceleration(momentum.at(phase.start + t))[0] for t in times])
+    shifts = [momentum.at(phase.start + t) for t in times]
+    counted = np.array([momentum.accelerations(shift, shift)[1][0] for shift in shifts])
     moved = np.gradient(np.gradient([swing.at(t)[0][0] for t in times], times), times)
     assert np.sqrt(np.mean((counted - moved) ** 2)) < 0.1 * np.abs(moved).max()
     latest = 10.0 / np.sqrt(3.0) * 2.0 * length / (0.88 * single) ** 2

@@ -51,3 +51,13 @@ def test_soles_that_carry_need_no_other_look(form):
     assert check.look(np.array([200.0]), 2, np.array([61.0]), 1) == -1
     assert check.look(None, 2, np.array([61.0]), 1) == -1
     assert (check.left, check.right) == (190.0, 40.0)
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("which", range(3))
+def test_one_number_that_is_not_finite_is_seen(form, which):
+    arrays = [np.arange(12.0), np.array([1e200, -1e200, 0.0]), np.full(3, 9.81)]
+    assert form.are_finite(*arrays)
+    for fault in (np.nan, np.inf, -np.inf):
+        arrays[which][1] = fault
+        assert not form.are_finite(*arrays)

@@ -35,3 +35,15 @@ def test_both_forms_are_the_formulas(seed):
             kernel.look(distance)
             assert kernel.looks == looks
             np.testing.assert_allclose(np.asarray(kernel.depth), depth, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("module", [seen_depth, python_form("seen_depth")])
+def test_deep_ground_shows(module):
+    kernel = module.SeenDepth(8, LEAST, HIGHEST, DEEP, SHARE)
+    distance = np.full(8, 0.01)
+    kernel.look(distance)
+    assert not kernel.shows(0.005)
+    distance[3:5] = 0.01 + DEEP, np.nan
+    kernel.look(distance)
+    assert kernel.shows(0.9 * SHARE * DEEP)
+    assert not kernel.shows(1.1 * SHARE * DEEP)

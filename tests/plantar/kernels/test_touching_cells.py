@@ -39,3 +39,16 @@ def test_both_forms_are_the_formulas(seed):
             assert cell.carry(force, turn) == carried
             assert cell.turn(turn, cop) == (touches != before).any()
             np.testing.assert_array_equal(mask, touches)
+
+
+@pytest.mark.parametrize("module", [touching_cells, python_form("touching_cells")])
+def test_a_point_between_contacts_and_along_a_sole(module):
+    triangle = np.array([[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]])
+    assert module.encloses(triangle, np.array([0.02, 0.03]))
+    assert module.encloses(triangle, np.array([0.05, 0.0]))
+    assert not module.encloses(triangle, np.array([0.06, 0.06]))
+    assert not module.encloses(triangle[:2], np.array([0.05, 0.0]))
+    rng = np.random.default_rng(1)
+    turn, position, point = Rotation.random(random_state=2).as_matrix(), rng.normal(size=3), rng.normal(size=2)
+    expected = turn[:2, :2].T @ (point - position[:2])
+    np.testing.assert_allclose(module.along_sole(turn, position, point), expected, rtol=0, atol=1e-15)
