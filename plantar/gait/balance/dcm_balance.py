@@ -88,9 +88,12 @@ class DcmBalance:
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Returns each foot's load by `balanced`; `feet` at rest yield to mutual pressure and part of the ZMP error."""
         actions = transferred(balanced, self.mass, feet)
+        if not feet.rests:
+            self.feet.fade()
+            return self._yielding(actions) if self.feet.acts else actions
         wanted = {}
         measured = {}
-        if feet.rests and self._zmp is not None:
+        if self._zmp is not None:
             zmp = self._zmp + _ZMP_SHARE * (balanced.zmp_desired - self._zmp)
             still = balanced.changed(zmp_desired=zmp, com_acceleration=np.zeros(2))
             for side, action in transferred(still, self.mass, feet).items():
@@ -98,7 +101,12 @@ class DcmBalance:
                 if foot.wrench is not None:
                     wanted[side] = _wrench_in_sole(action, foot)
                     measured[side] = foot.wrench
-        for side, moved in self.feet.update(wanted, measured, feet.rests).items():
+        self.feet.update(wanted, measured, rests=True)
+        return self._yielding(actions)
+
+    def _yielding(self, actions: dict[Side, FootAction]) -> dict[Side, FootAction]:
+        """Loads with the feet's corrections."""
+        for side, moved in self.feet.corrections.items():
             if moved.roll or moved.pitch or moved.shift:
                 actions[side] = actions[side].changed(roll=moved.roll, pitch=moved.pitch, shift=moved.shift)
         return actions

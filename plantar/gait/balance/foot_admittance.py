@@ -47,6 +47,18 @@ class FootAdmittance:
             side: SoleAdmittance(period, *rates, g.largest_turn, g.largest_lift) for side in SIDES
         }
 
+    @property
+    def acts(self) -> bool:
+        """Whether any sole is corrected."""
+        left = self.corrections["left"]
+        right = self.corrections["right"]
+        return bool(left.roll or left.pitch or left.shift or right.roll or right.pitch or right.shift)
+
+    def fade(self) -> None:
+        """A tick without a wanted wrench: corrections go back to none."""
+        self.corrections["left"].fade()
+        self.corrections["right"].fade()
+
     def update(
         self,
         wanted: Mapping[Side, NDArray[np.float64]],

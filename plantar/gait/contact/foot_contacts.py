@@ -149,7 +149,7 @@ class FootContacts:
         self.mass_ratio = 1.0
         self._foreseen = -1
         self._part = -_FORGETS - 1
-        self._region_of: list[object] = []
+        self._region_of: tuple[object, ...] = ()
         self._region_at: list[object] = []
         self._region = np.empty((0, 2))
 
@@ -189,7 +189,7 @@ class FootContacts:
         foot.seen_partial = ground is not None
         self._stand_on_part(side, foot.seen_partial)
 
-    def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
+    def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> Sequence[Side]:
         """Returns sides of `feet` (commanded), left first, that take weight over in a `phase` at a `time` in s, or
         landed and wait for it.
         """
@@ -199,7 +199,7 @@ class FootContacts:
             carrying = time < phase.start + self._settings.watch
         landed = feet.landed
         if not carrying and not (landed and swing is not None):
-            return []
+            return ()
         sides: list[Side] = []
         for side, foot in self._feet.items():
             step = foot.step
@@ -236,20 +236,17 @@ class FootContacts:
 
     def find(
         self,
-        phase: Phase,
-        time: float,
-        feet: FeetView,
+        coming: Sequence[Side],
         state: BaseState,
         soles: Mapping[Side, Percept],
         slope: SoleSlope | None = None,
     ) -> tuple[FootholdFound, ...]:
-        """Returns footholds of feet that come to carry, when found or changed.
+        """Returns footholds of feet `coming` to carry (`coming_to_carry`), when found or changed.
 
-        In a walk's `phase` at a `time` in s, by commanded `feet`, the estimated `state`, the percept of each sole,
-        `soles`, and its `slope` against the ground, where followed.
+        By the estimated `state`, the percept of each sole, `soles`, and its `slope` against the ground, where followed.
         """
         found = []
-        for side in self.coming_to_carry(phase, time, feet):
+        for side in coming:
             rises = None if slope is None else slope.slope(side)
             if rises is not None and self._settings.remember:
                 self._remember(side, state)
@@ -323,11 +320,17 @@ class FootContacts:
         """
         standing = SIDES if feet.landed else _STANDING[phase.swing]
         alone = len(standing) == 1
-        now: list[object] = [feet.footholds[side] for side in standing]
-        now += [self._feet[side].support for side in standing]
-        known = self._region_of
+        first = standing[0]
+        last = standing[-1]
+        now = (
+            alone,
+            feet.footholds[first],
+            self._feet[first].support,
+            feet.footholds[last],
+            self._feet[last].support,
+        )
         # Mostly the same objects as a tick ago; a foothold of another height has the same region.
-        if len(known) == len(now) and all(map(operator.is_, known, now)):
+        if self._region_of and all(map(operator.is_, self._region_of, now)):
             return self._region
         self._region_of = now
         places: list[object] = [alone]

@@ -18,6 +18,7 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.kernels.base.vectors import close, vector, vector2
 from plantar.kernels.gait.command_frame import CommandFrame
+from plantar.kernels.gait.sole_admittance import turned
 from plantar.kernels.gait.swing_lag import SwingLag
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
@@ -50,7 +51,8 @@ class FootMotion:
 
     Attributes `footholds`: sole's (3,) in m and heading in rad, command frame; `landed`: whether the last swing foot
     has touched; `comes_down`: whether it is past half of its swing; `surprise`: ground height seen or met, less the
-    expected, in m. `period` of control in s; `swing_height`: swing foot clearance in m; `compliance`: preemptive, of
+    expected, in m; `last_side`: foot of the current or last swing; None before; `hurried`: whether that has to catch
+    the body. `period` of control in s; `swing_height`: swing foot clearance in m; `compliance`: preemptive, of
     each foot; None lands blindly; `swing`: its kind; None takes time polynomials.
     """
 
@@ -80,6 +82,8 @@ class FootMotion:
         self._expected = float(np.mean([feet[s].z for s in SIDES]))
         self._planned = self._expected
         self._swing: Swing | None = None
+        self.last_side: Side | None = None
+        self.hurried = False
         self._side: Side = "left"
         self._target: Footstep | None = None
         self._start = 0.0
@@ -95,16 +99,6 @@ class FootMotion:
         self._rises_first: set[Side] = set()
         self._wary = 0
         self._lag = SwingLag(period, landing.body.in_si("leg/beat"))
-
-    @property
-    def last_side(self) -> Side | None:
-        """Foot of the current or last swing; None before."""
-        return None if self._swing is None else self._side
-
-    @property
-    def hurried(self) -> bool:
-        """Whether the last swing has to catch the body."""
-        return self._swing is not None and hurried(self._swing.duration, self._unhurried)
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -141,10 +135,12 @@ class FootMotion:
     def view(self) -> FeetView:
         """Feet at this tick, as a value."""
         footholds = self.footholds
-        close(footholds["left"][0])
-        close(footholds["right"][0])
+        left = footholds["left"]
+        right = footholds["right"]
+        close(left[0])
+        close(right[0])
         return FeetView(
-            footholds.copy(),
+            {"left": left, "right": right},
             self.last_side,
             self.landed,
             self._lift_off,
@@ -161,8 +157,8 @@ class FootMotion:
         known = self._rotations.get(side)
         if known is None or known[0] != yaw or known[1] is not tilt:
             level = level_rotation(yaw)
-            rotation = level if self._compliance is None else np.asarray(level.dot(tilt))
-            rotation.flags.writeable = False  # shared until the foot moves
+            rotation: NDArray[np.float64] = level if self._compliance is None else level.dot(tilt)
+            close(rotation)  # shared until the foot moves
             known = (yaw, tilt, rotation)
             self._rotations[side] = known
         return known[2]
@@ -173,10 +169,13 @@ class FootMotion:
         `turn` (2,) about the sole's x and y axes in rad; `pivot`: point (2,), sole frame, in m that keeps its height.
         """
         before = self.rotation(side)
-        self._tilts[side] = self._tilts[side] @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
-        rise = float((before - self.rotation(side))[2, :2] @ pivot)
+        self._tilts[side] = turned(self._tilts[side], turn.item(0), turn.item(1))
+        now = self.rotation(side)
+        rise_x = before.item(2, 0) - now.item(2, 0)
+        rise_y = before.item(2, 1) - now.item(2, 1)
+        rise = rise_x * pivot.item(0) + rise_y * pivot.item(1)
         position, yaw = self.footholds[side]
-        self.footholds[side] = (position + np.array([0.0, 0.0, rise]), yaw)
+        self.footholds[side] = (position + vector(0.0, 0.0, rise), yaw)
 
     def update(
         self,
@@ -262,6 +261,7 @@ class FootMotion:
         place = frame.to_command(target.position[:2]) if moves else self._swing.end[:2]
         yaw = target.yaw - frame.turn if moves else self._swing.yaw_end
         self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start)
+        self.hurried = hurried(self._swing.duration, self._unhurried)
 
     def _begin(
         self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame, again: bool = False
@@ -294,6 +294,8 @@ class FootMotion:
         )
         self._swing = self._kind.begin(start)
         self._unhurried = start.duration
+        self.hurried = False
+        self.last_side = side
         self._rises_first.discard(side)
         self._wary -= 1
         self._step = index
@@ -348,12 +350,13 @@ class FootMotion:
         position, yaw = self.footholds[side]
         elapsed = time - self._start
         if not self.landed:
-            self._lag.update(float(position[2]), float(sense.position[2] - frame.offset[2]))
+            above_frame = sense.position.item(2) - frame.z
+            self._lag.update(position.item(2), above_frame)
             view = compliance.ground.update(sense.percept, sense.position, sense.rotation, time)
             if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
-                self._touch = (time, float(sense.position[2]))
-                self.surprise = max(self.surprise, self._touch[1] - frame.offset[2] - self._expected)
+                self._touch = (time, sense.position.item(2))
+                self.surprise = max(self.surprise, above_frame - self._expected)
                 compliance.ground.touched()
                 self._distance = compliance.ground.distance
                 self._distance.flags.writeable = False
@@ -364,12 +367,14 @@ class FootMotion:
                 self.footholds[side] = (planned, heading)
                 self._tilts[side] = rotation_from_vector((1.0 - risen) * self._lifted_tilt)
                 return
-            falling = swing.falling(elapsed, planned.item(2))
+            x, y, z = planned.tolist()
+            falling = swing.falling(elapsed, z)
             down = phase.start if phase.swing is None else phase.end - phase.wait
             time_left = down - time - self._lag.time
             if time_left <= 0.0:
                 falling = self._landing.speed
-            remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
+            end_x, end_y, _ = swing.end.tolist()
+            remaining = math.hypot(end_x - x, end_y - y)
             # A sole that sees, and sees no ground at its place, is above ground that is lower than expected.
             sees = view is None and sense.percept.reading.proximity is not None
             if sees and remaining < _NEARLY_THERE * self._leg:
@@ -377,7 +382,7 @@ class FootMotion:
             if compliance.by_wrench:
                 drop = compliance.damped(falling, time_left, period)
                 if compliance.stopped:
-                    planned = position
+                    x, y, _ = position.tolist()
             else:
                 # One that has to catch the body comes down wherever it is.
                 away = 0.0 if self.hurried else remaining
@@ -385,18 +390,20 @@ class FootMotion:
             if view is not None and remaining < _NEARLY_THERE * self._leg:
                 # A block under a rim is not under the middle: unless all is one plane, what would be met first counts.
                 under = view.middle if view.even else min(view.middle, view.distance)
-                self.surprise = float(sense.position[2] - frame.offset[2]) - under - self._expected
+                self.surprise = above_frame - under - self._expected
             turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)
-            if turn.item(0) != 0.0 or turn.item(1) != 0.0:
-                self._tilts[side] = self._tilts[side].dot(rotation_from_vector(turn))
+            turn_x = turn.item(0)
+            turn_y = turn.item(1)
+            if turn_x != 0.0 or turn_y != 0.0:
+                self._tilts[side] = turned(self._tilts[side], turn_x, turn_y)
             # A leg that is stretched leaves its foot behind; commanded further down, it would slam where it gets there.
-            lowest = float(sense.position[2] - frame.offset[2]) - _AHEAD * self._leg
-            height = max(position[2] - drop, min(position[2], lowest))
-            self.footholds[side] = (vector(planned[0], planned[1], height), heading)
+            was = position.item(2)
+            lowest = above_frame - _AHEAD * self._leg
+            self.footholds[side] = (vector(x, y, max(was - drop, min(was, lowest))), heading)
             return
         touched_at, height = self._touch
         hold = compliance.holding(time - touched_at) if press is None else press
-        above = max(0.0, float(sense.position[2]) - height)
+        above = max(0.0, sense.position.item(2) - height)
         if phase.swing is not None:
             drop = compliance.yielding(load, hold, above, period)
         else:

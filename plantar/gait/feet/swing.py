@@ -44,7 +44,8 @@ class SwingTrajectory:
     rises_first: bool = False
 
     @lazy
-    def _path(self) -> SwingPath:
+    def kernel(self) -> SwingPath:
+        """What computes it."""
         return SwingPath(
             (*self.start.tolist(), self.yaw_start),
             (*self.end.tolist(), self.yaw_end),
@@ -58,14 +59,14 @@ class SwingTrajectory:
     @property
     def lifted(self) -> float:
         """Time in s since lift-off of descent."""
-        return float(self._path.lifted)
+        return float(self.kernel.lifted)
 
     @property
     def arrived(self) -> float:
         """Time in s since lift-off at which the foot only descends."""
-        return float(self._path.arrived)
+        return float(self.kernel.arrived)
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
         """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside."""
-        found: tuple[NDArray[np.float64], float] = self._path.at(time)
+        found: tuple[NDArray[np.float64], float] = self.kernel.at(time)
         return found

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
+from plantar.kernels.base.vectors import vector
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.rotation import vector_from_rotation
 from plantar.percepts.percept_options import PROXIMITY_GAIN
@@ -167,7 +168,7 @@ class SwingCompliance:
         share = min(1.0, self._turn_change * period / change) if change > 0.0 else 1.0
         self._turn = was_x + share * (x - was_x), was_y + share * (y - was_y)
         x, y = self._turn
-        return np.array([x * period, y * period, 0.0])
+        return vector(x * period, y * period, 0.0)
 
     def turn_rate(self, distance: float, slope: tuple[float, float], even: bool = True) -> float:
         """Largest turning rate in rad/s: an edge descends no faster than the sole, unless slope exceeds noise.

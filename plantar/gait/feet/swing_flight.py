@@ -126,8 +126,8 @@ class SwingFlight:
 
     def risen(self, time: float) -> float:
         """Share 0..1 of the rise done."""
-        progress = self.progress(time)
-        lifted = self.path.lifted
+        progress = time if self._clock is None else self._clock.at(time)
+        lifted = self.path.kernel.lifted
         return minimum_jerk(progress / lifted)[0] if progress < lifted else 1.0
 
     def falling(self, time: float, height: float) -> float:
@@ -136,19 +136,18 @@ class SwingFlight:
 
     def comes_down(self, time: float) -> bool:
         """Whether half of the swing is over at a time in s since lift-off."""
-        return self.progress(time) > 0.5 * self.path.duration
-
-    def at(self, time: float) -> tuple[NDArray[np.float64], float]:
-        """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside."""
-        return self.along(time)
+        progress = time if self._clock is None else self._clock.at(time)
+        return progress > 0.5 * self.path.duration
 
     def along(self, time: float) -> tuple[NDArray[np.float64], float]:
-        """The same on its trajectory."""
-        position, yaw = self.path.at(self.progress(time))
+        """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside."""
+        position, yaw = self.path.kernel.at(time if self._clock is None else self._clock.at(time))
         if self._course is not None and time >= self._course.since:
             x, y, yaw = self._course.at(time).tolist()
             position[:2] = x, y
         return position, yaw
+
+    at = along  # a swing that is fitted is elsewhere (`plantar.gait.feet.swing_fit`)
 
     def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> SwingFlight:
         """Returns the flight with a new end from now; unchanged if too late.

@@ -138,7 +138,7 @@ class WalkPlan:
     """A walk's footsteps, timing and VRPs.
 
     `vrp_in_sole` (2,) in each sole's frame in m, usually its centroid; `omega`: pendulum's in rad/s; `begin`: first
-    double support's start in s, after standing.
+    double support's start in s, after standing. Attributes `view`: the plan now, as a value; only `apply` changes it.
     """
 
     def __init__(
@@ -158,10 +158,10 @@ class WalkPlan:
         standing = {s: vrp_of_step(feet[s], vrp_in_sole[s]) for s in feet}
         for vrp in standing.values():
             vrp.flags.writeable = False
-        self._view = PlanView(0, tuple(map(self._planned, steps)), schedule, standing)
+        self.view = PlanView(0, tuple(map(self._planned, steps)), schedule, standing)
         first = schedule.phases[0].end
-        start = self._view.middle(0)
-        times, points = self._view.knots(-math.inf, len(steps))
+        start = self.view.middle(0)
+        times, points = self.view.knots(-math.inf, len(steps))
         if times and times[0] <= first:  # no step at all
             del times[0], points[0]
         self._vrps = VrpPlan([first - _AT_REST * timing.body.beat, first, *times], [start, start, *points], omega)
@@ -169,14 +169,9 @@ class WalkPlan:
         self._next = (-math.inf, self._vrps, self._vrps.at(-math.inf).dcm)
 
     @property
-    def view(self) -> PlanView:
-        """The plan now, as a value."""
-        return self._view
-
-    @property
     def schedule(self) -> WalkSchedule:
         """The phases."""
-        return self._view.schedule
+        return self.view.schedule
 
     @property
     def vrps(self) -> VrpPlan:
@@ -215,16 +210,16 @@ class WalkPlan:
         `time`: now in s; `region`: convex (k, 2), world, in m, counter-clockwise, for a bridge's VRP; empty for no
         limit.
         """
-        before = self._view
+        before = self.view
         if not before.first <= change.step < max(before.count, 1) and change.following is None:
             raise InputError(f"step {change.step} is not in the plan; allowed: {before.first} to {before.count - 1}")
-        self._view = self._changed(change, time)
+        self.view = self._changed(change, time)
         now = self._vrps.at(time)
         shift = np.asarray(change.shift if change.vrp_shift is None else change.vrp_shift)
         gap, delay = self._bridge(change, time, now, region, shift)
-        moved = _moved(before, self._view, change)
+        moved = _moved(before, self.view, change)
         applied = AppliedChange(time, change, moved, (float(gap[0]), float(gap[1])), delay)
-        self._view = replace(self._view, last=applied)
+        self.view = replace(self.view, last=applied)
         if change.following is not None:
             self._forget(time)
         self._record.append(applied)
@@ -234,7 +229,7 @@ class WalkPlan:
         return PlannedStep(step, vrp_of_step(step, self._vrp_in_sole[step.side]))
 
     def _changed(self, change: PlanChange, time: float) -> PlanView:
-        view = self._view
+        view = self.view
         steps = list(view.steps)
         schedule = view.schedule
         k = change.step - view.first
@@ -301,7 +296,7 @@ class WalkPlan:
             delay += _DELAY * self._body.beat
             window = (window[0], phase.end + delay)
         if delay > 0.0:
-            self._view = replace(self._view, schedule=self.schedule.delayed(phase, delay))
+            self.view = replace(self.view, schedule=self.schedule.delayed(phase, delay))
         return gap, delay
 
     def _solved(
@@ -316,11 +311,11 @@ class WalkPlan:
         anew: bool = False,
     ) -> NDArray[np.float64]:
         """Solve VRPs bridged in a time window; unbridged DCM (2,) in m."""
-        n = self._view.count
+        n = self.view.count
         last = n if anew else min(self.schedule.at(time).step + _REBUILT, n)
         if last >= n - 1:
             last = n
-        times, points = self._view.knots(time, last)
+        times, points = self.view.knots(time, last)
         if delay:
             times = [t + delay if t >= window[1] - delay - SAME_TIME else t for t in times]
         kept = len(self._vrps.times) - (0 if last == n else 2 * (n - last) + 2)
@@ -336,12 +331,12 @@ class WalkPlan:
 
     def _forget(self, time: float) -> None:
         """Drop what lies far behind in an endless walk."""
-        view = self._view
+        view = self.view
         first = max(view.first, min(view.schedule.at(time).step - _REMEMBERED, view.count))
         gone = view.steps[: first - view.first]
         standing = dict(view.standing) | {p.foothold.side: p.vrp for p in gone}
         schedule = view.schedule.since(time - 1.0)
-        self._view = replace(view, first=first, steps=view.steps[len(gone) :], standing=standing, schedule=schedule)
+        self.view = replace(view, first=first, steps=view.steps[len(gone) :], standing=standing, schedule=schedule)
 
 
 def _moved(before: PlanView, after: PlanView, change: PlanChange) -> tuple[MovedStep, ...]:

@@ -1,12 +1,11 @@
 """Swing and perceive: feet as commanded, landing, and their footholds."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.arrays import read_only
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import shrunk_support, within_support
@@ -37,7 +36,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import heading
 
-_NO_PUSH = read_only(np.zeros(2))
 _PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
 _MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed off its place is commanded away from it at most
 
@@ -111,10 +109,15 @@ class Footing:
         percepts = sensed.percepts
         s = self._settings
         motion = self.motion
-        senses = None
+        senses: Mapping[Side, SoleSense] | None = None
         heights = None
         if s.compliance is not None:
-            senses = {i: SoleSense(percepts[i], state.positions_sole[i], state.rotations_sole[i]) for i in SIDES}
+            places = state.positions_sole
+            turns = state.rotations_sole
+            senses = {
+                "left": SoleSense(percepts["left"], places["left"], turns["left"]),
+                "right": SoleSense(percepts["right"], places["right"], turns["right"]),
+            }
         target = None if phase.swing is None else self._plan.view.foothold(phase.step)
         if phase.kind == PhaseKind.STANDING:  # feet relax then
             heights = {side: state.positions_sole[side].item(2) for side in SIDES}
@@ -183,8 +186,9 @@ class Footing:
         percepts = sensed.percepts
         s = self._settings
         looks = dcm is not None and s.footholds != "off"
-        self._damp(phase, sensed, state, feet, looks)
-        found = self.contacts.find(phase, time, feet, state, percepts, self._slope) if looks else ()
+        coming = self.contacts.coming_to_carry(phase, time, feet) if looks else ()
+        self._damp(phase, sensed, state, coming, looks)
+        found = self.contacts.find(coming, state, percepts, self._slope) if coming else ()
         # On its way up a sole sees the ground that it leaves.
         sees = looks and self.motion.comes_down
         seen = self.contacts.find_ahead(phase, time, feet, state, percepts) if sees else None
@@ -214,13 +218,13 @@ class Footing:
         return self.contacts.zmp_region(phase, feet, self.frame.offset, margin)
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
-        offset = _NO_PUSH
-        pushed = _NO_PUSH
+        offset = NO_PUSH
+        pushed = NO_PUSH
         omega = self._estimation.omega
         plan = self._plan
         if self._settings.push_estimate is not None and self._settings.step_adjustment is not None:
             push = self._estimation.estimator.push_acceleration
-            expected = _NO_PUSH
+            expected = NO_PUSH
             if push is not NO_PUSH or self._push.acts:  # else there is none, and none is expected
                 expected = self._push.update(push / omega**2)
             if self._push.acts and phase.swing:
@@ -233,16 +237,21 @@ class Footing:
         )
 
     def regulated(
-        self, phase: Phase, time: float, pendulum: Pendulum | None, region: NDArray[np.float64]
+        self,
+        phase: Phase,
+        time: float,
+        reference: LipReference,
+        pendulum: Pendulum | None,
+        region: NDArray[np.float64],
     ) -> tuple[LipReference, NDArray[np.float64]]:
         """Returns the plan and the ZMP's region, or u* with its share of that (K 25-27).
 
-        `time` in s; `pendulum`: before the plan changed; None hands over the plan; `region`: desired ZMP's (k, 2) in m.
+        `time` in s; `reference`: the plan now; `pendulum`: before the plan changed; None hands over the plan;
+        `region`: desired ZMP's (k, 2) in m.
         """
-        reference = self._plan.at(time)
-        plan = self._plan.view
-        if pendulum is None or not self._regulates or not len(region):
+        if not self._regulates or pendulum is None or not len(region):
             return reference, region
+        plan = self._plan.view
         yaw = self.motion.footholds[phase.stance or "left"][1] + self.frame.turn
         middle = region.mean(axis=0) if phase.stance is None else plan.stance_vrp(phase.step)
         region = shrunk_support(region, self._settings.ankle_strategy, middle, yaw)
@@ -265,13 +274,12 @@ class Footing:
         if not landing.probing or load <= self._settings.estimator.minimum_load:
             self.damping[side].level(load, slope.slope(side), landing.levelling)
 
-    def _damp(self, phase: Phase, sensed: Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
-        """Damp feet that come to carry, once."""
+    def _damp(self, phase: Phase, sensed: Sensed, state: BaseState, coming: Sequence[Side], looks: bool) -> None:
+        """Damp feet `coming` to carry, once."""
         damped: dict[Side, tuple[SoleLoad, float]] = {}
         if looks and self._slope is not None:
             self._level(self._slope, phase, state)
-        if looks and (self._slope is None or self._settings.landing.probing):
-            coming = self.contacts.coming_to_carry(phase, sensed.time, feet)
+        if coming and (self._slope is None or self._settings.landing.probing):
             damped = {side: (sensed.percepts[side], self._settings.estimator.minimum_load) for side in coming}
         if self.guard is not None and self.guard.probing and phase.swing is not None:
             damped[phase.swing] = (sensed.soles[phase.swing], _PROBING * self._settings.body.weight)

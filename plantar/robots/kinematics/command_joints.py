@@ -30,13 +30,14 @@ def follow_command(legs: LegModel, command: Command) -> float:
     """
     left = command.feet["left"]
     right = command.feet["right"]
-    return legs.follow(
+    return legs.follow_soles(
         command.com,
         command.rotation_torso,
-        {"left": left.position, "right": right.position},
-        {"left": left.rotation, "right": right.rotation},
-        yielding=_YIELDING[left.force.item(2) <= 0.0, right.force.item(2) <= 0.0],
-        largest_step=_LARGEST_STEP,
+        (left.position, left.rotation),
+        (right.position, right.rotation),
+        1,
+        _YIELDING[left.force.item(2) <= 0.0, right.force.item(2) <= 0.0],
+        _LARGEST_STEP,
     )
 
 

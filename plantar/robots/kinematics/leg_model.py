@@ -70,7 +70,7 @@ class LegModel:
             *(self._com.target, self._torso.target),
             *((sole.position, sole.rotation) for sole in self._soles.values()),
         )
-        self._yielding: Collection[Side] = ()
+        self._yielding: tuple[Side, ...] = ()
         self._reference = PostureTask(model, self._data, ids)
         self.known: dict[tuple[Hashable, ...], Any] = {}
         self.joints = np.zeros(len(ids))
@@ -193,13 +193,28 @@ class LegModel:
         first: the unloaded ones; `largest_step`: largest change in rad or units of length in a step. Returns largest
         task error before the last step in units of length or rad, NaN if a target is.
         """
-        targets = com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"]
+        left = positions["left"], rotations["left"]
+        right = positions["right"], rotations["right"]
+        return self.follow_soles(com, rotation_torso, left, right, iterations, tuple(yielding), largest_step)
+
+    def follow_soles(
+        self,
+        com: NDArray[np.float64],
+        rotation_torso: NDArray[np.float64],
+        left: tuple[NDArray[np.float64], NDArray[np.float64]],
+        right: tuple[NDArray[np.float64], NDArray[np.float64]],
+        iterations: int,
+        yielding: tuple[Side, ...],
+        largest_step: float,
+    ) -> float:
+        """`follow` with each sole's position (3,) in m and rotation (3, 3)."""
+        targets = com, rotation_torso, *left, *right
         try:
             self._targets.take(*targets)
         except ValueError:  # one is of other strides or numbers than the kernel takes
             self._targets.take(*(np.ascontiguousarray(target, dtype=np.float64) for target in targets))
         if yielding != self._yielding:
-            self._yielding = tuple(yielding)
+            self._yielding = yielding
             for side, sole in self._soles.items():
                 sole.level = 1 if side in yielding else 0
         missed = self.inverse.solve(iterations, largest_step)

@@ -247,8 +247,9 @@ class Simulation(Run):
                 for name in _MEMBERS:
                     getattr(percept, name)
             return 0
+        percepts = command.percepts
         # A percept keeps its members alone.
-        return sum([len(_MEMBERS) - len(percept.__dict__) for percept in command.percepts.values()])
+        return 2 * len(_MEMBERS) - len(percepts["left"].__dict__) - len(percepts["right"].__dict__)
 
     def _identity(self) -> dict[str, object]:
         return {

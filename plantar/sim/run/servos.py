@@ -1,5 +1,7 @@
 """Position servos with velocity and torque feed-forward, interpolated at their own rate."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,8 +27,8 @@ class LegServos:
     held set-points would make a saw tooth of kp q'_d dt in torque. At a speed limit all joints of a leg move by the
     same share of their way.
 
-    `world`: the world; `period`: control period in s; `plant`: True differences, or None. Attributes
-    `out_of_reach_since`: time in s of the first unreachable command, or None.
+    `world`: the world; `period`: control period in s; `plant`: True differences, or None. Attributes `drive`: writes
+    the set-points of one physics step; `out_of_reach_since`: time in s of the first unreachable command, or None.
     """
 
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
@@ -56,6 +58,7 @@ class LegServos:
         self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
         self._reference = np.asarray(self._setpoints.reference)
         self._stiffness = 1.0
+        self.drive = self._choose_drive()
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -70,7 +73,9 @@ class LegServos:
             self.out_of_reach_since = float(self._world.data.time)
         self._motion.update()
         self._motion.carry(command)
-        self._stiffness = command.stiffness
+        if command.stiffness != self._stiffness:
+            self._stiffness = command.stiffness
+            self.drive = self._choose_drive()
         self._go_on(command.joint_offsets)
         return self._reference.copy()
 
@@ -87,15 +92,16 @@ class LegServos:
         friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
         self._setpoints.load(friction, offsets)
 
-    def drive(self) -> None:
-        """Write the set-points of one physics step."""
-        if self._drives is None and self._stiffness == 1.0:
-            self._setpoints.drive()
-        else:
-            if self._curve.acts:
-                self._curve.limit(self._world.data.qvel[self._world.joint_qvel])
-            self._write()
-            self._setpoints.advance()
+    def _choose_drive(self) -> Callable[[], None]:
+        """The kernel alone writes set-points of drives as modelled."""
+        plain: Callable[[], None] = self._setpoints.drive
+        return plain if self._drives is None and self._stiffness == 1.0 else self._drive_drawn
+
+    def _drive_drawn(self) -> None:
+        if self._curve.acts:
+            self._curve.limit(self._world.data.qvel[self._world.joint_qvel])
+        self._write()
+        self._setpoints.advance()
 
     def _write(self) -> None:
         data = self._world.data
