@@ -140,11 +140,15 @@ class Stranger:
         for page in PAGES:
             with tempfile.TemporaryDirectory() as folder:
                 (Path(folder) / "examples").symlink_to(ROOT / "examples")
-                before = ""
+                run: list[str] = []
+                before: list[str] = []
                 for block in blocks_of(page):
+                    ended = "done"
                     if only in block.place:
-                        self._try_block(block, before, Path(folder))
-                    before += block.text if block.language == "python" else ""
+                        ended = self._try_block(block, ("".join(run), "".join(before)), Path(folder))
+                    if block.language == "python":
+                        before.append(block.text)
+                        run += [block.text] if ended == "done" else []
 
     def try_examples(self, only: str) -> None:
         """Each example without arguments."""
@@ -161,15 +165,19 @@ class Stranger:
                 with tempfile.TemporaryDirectory() as folder:
                     self._judge(door, self._run([str(self.python), "-c", _BEFORE_A_DOOR + door], Path(folder)))
 
-    def _try_block(self, block: Block, before: str, folder: Path) -> None:
+    def _try_block(self, block: Block, before: tuple[str, ...], folder: Path) -> str:
+        """Try a block, which may go on where those before it ended: those that ran, else all; returns how it ended."""
         if block.language == "sh":
-            for line in lines_of(block):
-                self._judge(f"{block.place} {line}", self._run(["sh", "-c", line], folder))
-            return
+            ended = [
+                self._judge(f"{block.place} {line}", self._run(["sh", "-c", line], folder)) for line in lines_of(block)
+            ]
+            return ended[-1] if ended else "done"
         done = self._run([str(self.python), "-c", block.text], folder)
-        if done is not None and "NameError" in done.stderr:  # it goes on where the block before it ended
-            done = self._run([str(self.python), "-c", before + block.text], folder)
-        self._judge(block.place, done)
+        for text in before:
+            if done is None or "NameError" not in done.stderr:
+                break
+            done = self._run([str(self.python), "-c", text + block.text], folder)
+        return self._judge(block.place, done)
 
     def _run(self, command: list[str], folder: Path) -> subprocess.CompletedProcess[str] | None:
         self._before = _children_s()
@@ -190,13 +198,14 @@ class Stranger:
         _end(started)
         return None
 
-    def _judge(self, place: str, done: subprocess.CompletedProcess[str] | None) -> None:
+    def _judge(self, place: str, done: subprocess.CompletedProcess[str] | None) -> str:
         ended = "at work" if done is None else outcome(done, self._absent)
         self.counts[ended] = self.counts.get(ended, 0) + 1
         print(f"{_children_s() - self._before:7.1f} s  {ended:10}  {place}", file=sys.stderr, flush=True)
         if done is not None and ended == "broken":
             last = "\n    ".join(done.stderr.strip().splitlines()[-3:])
             self.broken.append(f"{place}: exit {done.returncode}\n    {last}")
+        return ended
 
 
 def _children_s() -> float:

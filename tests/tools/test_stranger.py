@@ -47,16 +47,27 @@ def test_how_a_block_ends(code, extras, ended, stranger, tmp_path):
 
 def test_a_block_that_goes_on_from_the_one_before_it_is_tried_with_it_and_a_broken_one_is_found(stranger, tmp_path):
     tried = stranger.Stranger(Path(sys.executable), "")
-    tried._try_block(stranger.Block("page:2", "python", "print(x)\n"), "x = 1\n", tmp_path)
+    tried._try_block(stranger.Block("page:2", "python", "print(x)\n"), ("", "x = 1\n"), tmp_path)
     assert tried.counts == {"done": 1}
-    tried._try_block(stranger.Block("page:3", "python", "print(y)\n"), "x = 1\n", tmp_path)
+    tried._try_block(stranger.Block("page:3", "python", "print(y)\n"), ("", "x = 1\n"), tmp_path)
     assert tried.counts == {"done": 1, "broken": 1}
     assert tried.broken[0].startswith("page:3")
 
 
+def test_a_block_does_without_those_before_it_that_lack_a_library(stranger, tmp_path, monkeypatch):
+    page = tmp_path / "page.md"
+    blocks = ("x = 1", "raise ModuleNotFoundError(\"No module named 'torch'\")", "print(x)")
+    page.write_text("".join(f"```python\n{block}\n```\n" for block in blocks))
+    monkeypatch.setattr(stranger, "ROOT", tmp_path)
+    monkeypatch.setattr(stranger, "PAGES", (page,))
+    tried = stranger.Stranger(Path(sys.executable), "")
+    tried.try_pages("")
+    assert tried.counts == {"done": 2, "library": 1}
+
+
 def test_what_does_not_end_in_time_is_at_work_and_leaves_no_process(stranger, tmp_path):
     tried = stranger.Stranger(Path(sys.executable), "", limit=1.0)
-    tried._try_block(stranger.Block("page:2", "sh", "sleep 60 | sleep 60\n"), "", tmp_path)
+    tried._try_block(stranger.Block("page:2", "sh", "sleep 60 | sleep 60\n"), (), tmp_path)
     assert tried.counts == {"at work": 1}
     assert tried.broken == []
 
@@ -71,7 +82,7 @@ def test_time_is_that_of_a_processor_or_of_waiting(stranger, tmp_path, monkeypat
     """A process that is stopped, as by a busy machine, is neither at work nor waiting for something."""
     monkeypatch.setattr(stranger, "_session_time", lambda session: (0.1, True))
     tried = stranger.Stranger(Path(sys.executable), "", limit=1.0)
-    tried._try_block(stranger.Block("page:2", "sh", "sleep 2.5\n"), "", tmp_path)  # by the clock over after 1 s
+    tried._try_block(stranger.Block("page:2", "sh", "sleep 2.5\n"), (), tmp_path)  # by the clock over after 1 s
     assert tried.counts == {"done": 1}
 
 
