@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES
 from plantar.errors import InputError
-from plantar.formats.field_names import heading_of
+from plantar.formats.field_names import OF_CELLS, OF_PLATES, heading_of
 from plantar.formats.side import is_side_column, side_column, side_of
-from plantar.formats.table_text import time_unit
+from plantar.formats.table_text import time_columns, time_unit
 from plantar.formats.units import find_unit
 
-_LOADS = ("force", "cop", "moment", "place", "pressure", "cell", "number")
+_LOADS = {*OF_PLATES, *OF_CELLS}
 _ALLOWED = (
     "allowed: time, left, right and side, or names such as Fz1, left Fz, FP2 COPx [mm], each with = and a column's "
     "name or number; the cells of a foot as left=A + B, or left=A..B for all from A to B"
@@ -62,7 +62,8 @@ def mapped_columns(wanted: Mapping[str, str], names: Sequence[str], width: int) 
     """
     out: dict[int, str] = {}
     for key, held in wanted.items():
-        columns = [i for part in _parts(held, names) for i in _columns(part, names, width)]
+        parts = [held] if held in names else [part.strip() for part in held.split("+")]
+        columns = [i for part in parts for i in _columns(part, names, width)]
         side = side_of(key) if heading_of(key).quantity == "number" else None
         for count, i in enumerate(columns, 1):
             if i in out:
@@ -77,10 +78,6 @@ def mapped_columns(wanted: Mapping[str, str], names: Sequence[str], width: int) 
                 f"--columns gives {key!r} {len(columns)} columns; allowed: one, or several of left or right"
             )
     return out
-
-
-def _parts(held: str, names: Sequence[str]) -> list[str]:
-    return [held] if held in names else [part.strip() for part in held.split("+")]
 
 
 def _columns(part: str, names: Sequence[str], width: int) -> list[int]:
@@ -115,43 +112,42 @@ def proposed_map(names: Sequence[str], table: NDArray[np.float64], among: Sequen
     Six columns with negative values are a plate's channels; one that reaches 150 is its vertical force; others are one
     or two feet's cells. Columns that may be anything are not filled in.
     """
-    unknown = "left=COLUMN, right=COLUMN" if names else "left=FIRST..LAST, right=FIRST..LAST"
+    columns = range(table.shape[1])
     steps = np.diff(table, axis=0)
-    rising = [i for i in range(table.shape[1]) if len(steps) and (steps[:, i] > 0.0).all()]
+    rising = [i for i in columns if len(steps) and (steps[:, i] > 0.0).all()]
     counters = [i for i in rising if (steps[:, i] == 1.0).all()]
-    timed = [i for i, n in enumerate(names) if time_unit(n) is not None]
-    timed = timed or [i for i in rising if i not in counters]
-    of_side = side_column(names or [""] * table.shape[1], table)
-    sides = [] if of_side is None else [of_side]
-    rest = [i for i in range(table.shape[1]) if i not in (*timed[:1], *counters, *sides)]
-    parts = [f"time={_shown(timed[0], names)}"] if timed else []
-    if sides and len(rest) == 1:
-        parts += [f"side={_shown(sides[0], names)}", f"force={_shown(rest[0], names)}"]
-        return f'--columns "{", ".join(parts)}"'
-    if among is not None:
-        rest = list(among)
-    elif names:
-        rest = _possible_loads(names, table, rest)
+    timed = (time_columns(names) or [i for i in rising if i not in counters])[:1]
+    of_side = side_column(names or [""] * len(columns), table)
+    rest = [i for i in columns if i not in (*timed, *counters, of_side)]
+    loads = list(among) if among is not None else _possible_loads(names, table, rest) if names else rest
+    parts = [f"time={_shown(i, names)}" for i in timed]
+    if of_side is not None and (len(rest) == 1 or not loads):
+        force = _shown(rest[0], names) if len(rest) == 1 else "COLUMN"
+        parts += [f"side={_shown(of_side, names)}", f"force={force}"]
+    else:
+        parts += _proposed_loads(names, table, loads)
+    return f'--columns "{", ".join(parts)}"'
+
+
+def _proposed_loads(names: Sequence[str], table: NDArray[np.float64], rest: Sequence[int]) -> list[str]:
+    unknown = "left=COLUMN, right=COLUMN" if names else "left=FIRST..LAST, right=FIRST..LAST"
     if not rest:
-        unknown = f"side={_shown(sides[0], names)}, force=COLUMN" if sides else unknown
-        return f'--columns "{", ".join([*parts, unknown])}"'
+        return [unknown]
     lows = np.nanmin(table[:, rest], axis=0, initial=0.0)
     highs = np.nanmax(np.abs(table[:, rest]), axis=0, initial=1e-9)
     signed = bool((lows < -_SIGNED * highs).any())
     if len(rest) % len(_PLATE) == 0 and signed and max(highs) >= _HEAVY:
         count = len(rest) // len(_PLATE)
         channels = [f"{c}{plate + 1 if count > 1 else ''}" for plate in range(count) for c in _PLATE]
-        parts += [f"{channel}={_shown(i, names)}" for channel, i in zip(channels, rest, strict=True)]
-    elif not names and (len(rest) > _MOST_FILLED or (signed and len(rest) > 2) or _has_constant(table[:, rest])):
-        parts.append(unknown)
-    elif not names and len(rest) == 1 and highs[0] >= _STEPPED:
-        parts.append(f"Fz={_shown(rest[0], names)}")
-    elif len(rest) > 1 and len(rest) % 2 == 0:
+        return [f"{channel}={_shown(i, names)}" for channel, i in zip(channels, rest, strict=True)]
+    if not names and (len(rest) > _MOST_FILLED or (signed and len(rest) > 2) or _has_constant(table[:, rest])):
+        return [unknown]
+    if not names and len(rest) == 1 and highs[0] >= _STEPPED:
+        return [f"Fz={_shown(rest[0], names)}"]
+    if len(rest) % 2 == 0:
         half = len(rest) // 2
-        parts += [f"left={_span(rest[:half], names)}", f"right={_span(rest[half:], names)}"]
-    else:
-        parts.append(f"left={_span(rest, names)}")
-    return f'--columns "{", ".join(parts)}"'
+        return [f"left={_span(rest[:half], names)}", f"right={_span(rest[half:], names)}"]
+    return [f"left={_span(rest, names)}"]
 
 
 def _has_constant(values: NDArray[np.float64]) -> bool:

@@ -19,10 +19,9 @@ from plantar.formats.table_columns import recording_of_columns
 from plantar.formats.table_text import (
     CountedSeconds,
     TableHead,
-    has_quoted_commas,
     head_of_table,
     seconds_of_time,
-    time_unit,
+    time_columns,
     with_columns,
     without_quotes,
 )
@@ -32,6 +31,7 @@ from plantar.recordings.pressure_recording import PressureRecording
 _MOST_COLUMNS = 100_000
 _HEAD = 200
 _POINT = re.compile(r"(?<!\d)0\.|\.(?!\d{3}(?!\d))|\d{4}\.|\.\d+[eE]")  # that is no mark between thousands
+_QUOTED_COMMA = re.compile(r'"[^",]*,[^"]*"')
 _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; fewer need names, or so many rows
 _ROWS = 20
 
@@ -81,12 +81,10 @@ def _checked_head(lines: list[str]) -> TableHead:
         raise FormatError("the table has no rows of numbers")
     if head.width > _MOST_COLUMNS:
         raise FormatError(f"a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
-    above = lines[head.first - 1] if head.first else ""
-    if head.delimiter == "," and not head.names and above and 2 * above.count(",") + 2 == head.width:
+    nameless = head.delimiter == "," and not head.names
+    if nameless and head.first and 2 * lines[head.first - 1].count(",") + 2 == head.width:
         raise FormatError("rows have twice as many cells as names: a comma cannot be decimal sign and delimiter, too")
-    if (head.delimiter, head.width, list(head.names)) == (",", 2, []) and not any(
-        "." in x for x in lines[head.first :]
-    ):
+    if nameless and head.width == 2 and not any("." in x for x in lines[head.first :]):
         raise FormatError(
             "two whole numbers a row are two columns, or one with a decimal comma; allowed: a row of names, or "
             "decimal points"
@@ -96,8 +94,8 @@ def _checked_head(lines: list[str]) -> TableHead:
 
 def _plain_numbers(rows: Iterator[str], first: Sequence[str], delimiter: str | None) -> Iterator[str]:
     """Rows without quotes about decimal commas, and without points between thousands, where the first ones show it."""
-    if delimiter == "," and any(map(has_quoted_commas, first)):
-        return without_quotes(rows)
+    if delimiter == "," and any(map(_QUOTED_COMMA.search, first)):
+        return map(without_quotes, rows)
     if delimiter != "," and any("," in x for x in first) and not any(map(_POINT.search, first)):
         return (x.replace(".", "") for x in rows)
     return rows
@@ -122,7 +120,7 @@ def _changed_columns(
 
 def _clock(names: list[str], rows: list[list[str]], tried: list[int]) -> int | None:
     """Column of times of day or dates: the one that is called time, else the first that holds them."""
-    named = [i for i, n in enumerate(names) if time_unit(n) is not None][:1] or tried
+    named = time_columns(names)[:1] or tried
     return next((i for i in named if any(seconds_of_time(row[i]) is not None for row in rows if i < len(row))), None)
 
 

@@ -7,20 +7,27 @@ dictionary, or one that makers write together ("fzl", "linkervoet"). One unknown
 import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import chain
 from typing import Literal
 
-from plantar.common.sides import Side
+from plantar.common.gravity import GRAVITY
+from plantar.common.sides import SIDES, Side
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, find_unit, plain
 
 Quantity = Literal["force", "pressure", "cop", "moment", "place", "cell", "number", "foreign", "unknown"]
 """What a column holds: "number" is a heading of nothing but side and number, as cells have; "foreign" is known
 and no load, such as an angle; "place" is an axis alone, a CoP next to forces; "unknown" has an unknown word."""
 
+OF_PLATES = ("force", "cop", "moment", "place")
+OF_CELLS = ("force", "pressure", "cell", "number")
+"""Quantities of a plate's columns, and of those of cells."""
+
 BODY_WEIGHTS: dict[str, float] = {
     **dict.fromkeys(("bw", "xbw", "n/bw", "bodyweight", "bodyweights", "timesbodyweight"), 1.0),
     **dict.fromkeys(("%bw", "bw%", "percentbw", "%bodyweight", "%ofbodyweight"), 0.01),
+    **dict.fromkeys(("n/kg", "newton/kg", "nkg-1", "n/kgbm"), 1.0 / GRAVITY),
 }
-"""Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
+"""Units of force relative to the body, in its weights."""
 
 # Where each is seen: OpenSim .mot (ground_force_vx), Cortex .forces (FX1), D-Flow (FP1.ForX), Vicon Nexus (Fx, Force
 # Plate #1), BioWare (Ax [m]), BTK (F1X), Visual3D (COFP), AMTI (FX), novel (links, Kraft), loadsol (Force[N]),
@@ -69,12 +76,12 @@ _CAPITALS = re.compile(r"[A-ZÄÖÜ]{2,}(?![a-zß-ÿ])|[A-ZÄÖÜ]?[a-zß-ÿ]+|[
 _UNIT = re.compile(
     r"[\[(<{]\s*([^\])>}]*?)\s*[\])>}]|[_ ](kpa|n|pa|mmhg|psi|raw|kg|lbf|nm|nmm|mm|cm|bw|%bw|newtons?)$", re.I
 )
-_VOLTS = re.compile(r"(?i)[fm]\d*[xyz]\d*[_ ](m?v|volts?)$")  # of a plate's channel; after another word v is vertical
+_VOLTS = re.compile(r"(?i)([fm]\d*[xyz]\d*)[_ ](m?v|volts?)$")  # of a plate's channel; after another word v is vertical
 _LETTER = re.compile(r"(plate|platform|fp|belt)[ _-]?([a-d])(?![a-z])", re.IGNORECASE)  # instead of a number
 _COORDINATE = re.compile(r"\[[0-2]\]\s*$")  # of a marker, as LTOE[0]
 # Of BioWare: a place where in m, else an acceleration.
-_PLACE_OF_KISTLER = re.compile(r"(.*(?<![a-zA-Z]))A([xy])(\d*)\s*")
-_ADAPTER = re.compile(r"([fpm])(\d+)_([123])")
+_PLACE_OF_KISTLER = re.compile(r"(?<![a-zA-Z])A([xy]\d*\s*)$")
+_ADAPTER = re.compile(r"^([fpm])(\d+)_([123])$")
 _STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
 
 
@@ -105,11 +112,8 @@ def spelled_out(names: list[str]) -> list[str]:
     """
     if not {"f1_1", "f1_2", "f1_3"} <= set(names):
         return names
-    found = [_ADAPTER.fullmatch(name) for name in names]
     what = {"f": "F", "p": "COP", "m": "M"}
-    return [
-        n if m is None else f"FP{m[2]} {what[m[1]]}{'xyz'[int(m[3]) - 1]}" for n, m in zip(names, found, strict=True)
-    ]
+    return [_ADAPTER.sub(lambda m: f"FP{m[2]} {what[m[1]]}{'xyz'[int(m[3]) - 1]}", name) for name in names]
 
 
 def heading_of(text: str) -> Heading:
@@ -124,10 +128,8 @@ def heading_of(text: str) -> Heading:
         ['cop', 'moment', 'cell', 'number', 'unknown', 'foreign']
     """
     name = _LETTER.sub(lambda m: f"{m[1]} {ord(m[2].lower()) - 96} ", text.strip().strip('"'))
+    name = _VOLTS.sub(r"\1 [\2]", name)
     unit = ""
-    if volts := _VOLTS.search(name):
-        unit = volts[1]
-        name = name[: volts.start(1) - 1]
     while match := _UNIT.search(name):
         stated = match[1] if match[1] is not None else match[2]
         known = plain(stated) in _STATED or find_unit(stated) is not None or "/" in stated or "%" in stated
@@ -137,7 +139,7 @@ def heading_of(text: str) -> Heading:
         else:
             name = name[: match.start()] + " " + stated + " " + name[match.end() :]
     if plain(unit) in LENGTHS:
-        name = _PLACE_OF_KISTLER.sub(r"\1COP\2\3", name) if _PLACE_OF_KISTLER.fullmatch(name) else name
+        name = _PLACE_OF_KISTLER.sub(r"COP\1", name)
     found = _heading(name, unit)
     of_marker = _COORDINATE.search(text) is not None and not _PLACES.isdisjoint(found.words.split())
     return replace(found, quantity="foreign") if of_marker else found
@@ -148,30 +150,27 @@ def _words(name: str) -> tuple[str, ...] | None:
     """Name's known words and numbers; None with any other."""
     out: list[str] = []
     for chunk in re.findall(r"[^\W\d_]+|\d+|%", name):
-        words = [chunk] if not chunk.isalpha() else _known(chunk)
-        if words is None:
+        words = _known(chunk) if chunk.isalpha() else [chunk]
+        if not words:
             return None
         out += words
     return tuple(out)
 
 
-def _known(letters: str) -> list[str] | None:
-    """Known words of letters: one, one written together, or one from each capital on; None with an unknown one."""
-    whole = _one_word(letters.lower())
-    if whole is not None:
-        return whole
-    pieces = _CAPITALS.findall(letters)
-    words = [_one_word(piece.lower()) for piece in pieces]
-    if len(pieces) < 2 or "".join(pieces) != letters or None in words:
-        return None
-    return [word for own in words for word in own or ()]
+def _known(letters: str) -> list[str]:
+    """Known words of letters: one, one written together, or one from each capital on; empty with an unknown one."""
+    for pieces in ([letters], _CAPITALS.findall(letters)):
+        words = [_one_word(piece.lower()) for piece in pieces]
+        if all(words) and "".join(pieces) == letters:
+            return list(chain(*words))
+    return []
 
 
-def _one_word(text: str) -> list[str] | None:
+def _one_word(text: str) -> list[str]:
     if text in _KINDS:
         return [text]
     match = _TOGETHER.fullmatch(text)
-    return None if match is None else [part for part in match.groups() if part]
+    return [part for part in match.groups() if part] if match else []
 
 
 def _heading(name: str, unit: str) -> Heading:
@@ -182,8 +181,8 @@ def _heading(name: str, unit: str) -> Heading:
         letters = "".join(re.findall(r"[^\W\d_]+", name)).lower()
         return Heading("unknown", number=number, unit=unit, words=letters)
     kinds = [_KINDS.get(w, "number") for w in words]
-    sides = {k for k in kinds if k in ("left", "right")}
-    side: Side | None = None if len(sides) != 1 else "left" if "left" in sides else "right"
+    sides = [side for side in SIDES if side in kinds]
+    side = sides[0] if len(sides) == 1 else None
     found = set(kinds)
     rest = " ".join(w for w, k in zip(words, kinds, strict=True) if k not in ("left", "right", "number", "plain"))
     axis = next((k for k in kinds if k in ("x", "y", "z", "ap", "ml")), "vertical" if "vertical" in found else "")

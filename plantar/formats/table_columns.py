@@ -1,6 +1,7 @@
 """Number table with named columns as a recording."""
 
 import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -13,7 +14,7 @@ from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, feet_in_turns, halves, unit_of_values
 from plantar.formats.column_map import proposed_map
-from plantar.formats.field_names import Heading, heading_of, spelled_out
+from plantar.formats.field_names import OF_CELLS, OF_PLATES, Heading, heading_of, spelled_out
 from plantar.formats.format import ReadOptions
 from plantar.formats.missing_cells import report_missing_cells
 from plantar.formats.plausibility import possible
@@ -21,12 +22,13 @@ from plantar.formats.side import on_one_time, rows_of_sides, side_column, side_o
 from plantar.formats.stated_rate import in_seconds, or_usual, stated_rate
 from plantar.formats.stated_rows import on_counted_rows, report_lost_rows
 from plantar.formats.table_forces import feet_of_forces, is_force_table
-from plantar.formats.table_text import time_unit
+from plantar.formats.table_text import time_columns, time_unit
 from plantar.formats.units import find_unit, plain
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 
 _CLOCK = re.compile(r"(?i)time|zeit|tiempo|temp[os]|tijd|clock|elapsed|epoch|[\[({（]m?s([ei][cgk]\w*)?[\])}）]|秒|^s$")
 _MEASURE = re.compile(r"(?i)(?<![a-z])(?:step|stride|stance|swing)[ _]?(?:length|width|time|duration|velocity|speed)")
+_TRIAL = re.compile(r"\b(?:subject|trial|session|participant)\b|trialid")
 _MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
 _CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 _SLOWEST = 5.0  # Hz: rows that are farther apart are steps or minutes, and no frames
@@ -52,7 +54,7 @@ def recording_of_columns(
     `table`: numbers (n, k), NaN if missing; `names`: columns (k), empty where a layout has as many cells; `facts`:
     "unit", "rate", "side" of comments.
     """
-    facts = {} if facts is None else facts
+    facts = facts or {}
     warnings = [] if warnings is None else warnings
     if len(table) < _FEWEST:
         raise FormatError(
@@ -65,17 +67,15 @@ def recording_of_columns(
     of_side = side_column(names, table)
     at = _clock(table, names)
     if of_side is not None:
-        table, names = _side_by_side(table, names, at, of_side, warnings)
-        at = None if at is None else 0
+        table, names, at = _side_by_side(table, names, at, of_side, warnings)
     elif at is not None:
         table, names, at = _on_one_clock(table, names, at, warnings)
     elif options.rate_hz is None:
         table = on_counted_rows(table, names, warnings)
     report_lost_rows(len(table), facts, warnings)
-    clocks = [i for i, n in enumerate(names) if time_unit(n) is not None and i != at]
-    for i in range(table.shape[1]):
-        if i != at and i not in clocks:
-            table[:, i] = possible(table[:, i])
+    columns = [i for i, n in enumerate(names) if i != at and time_unit(n) is None]
+    for i in columns:
+        table[:, i] = possible(table[:, i])
     if at is not None and of_side is None:
         _refuse_feet_in_turns(table, at)
     headings = [heading_of(name) for name in names]
@@ -88,18 +88,15 @@ def recording_of_columns(
             f"the rows are {1.0 / rate:.3g} s apart, as steps are and no frames; allowed: a row a frame, "
             f"{_SLOWEST:g} or more a second (--rate overrides)"
         )
-    columns = [i for i in range(table.shape[1]) if i != at and i not in clocks]
-    copies, both = _repeated(table, names, columns, warnings)
+    copies, both = _repeated(table, names, headings, columns, warnings)
     columns = [i for i in columns if i not in copies]
-    kind = "insole"
-    every = True
-    raw = False
     if is_force_table([headings[i] for i in columns]):
         named = {i: headings[i] for i in columns}
         feet, every, kind, raw = feet_of_forces(table, named, rate, options, facts.get("unit"), warnings)
-        used = {i for i in columns if headings[i].quantity in ("force", "cop", "moment", "place")}
-        _report_left_out([names[i] for i in columns if i not in used], warnings, "load")
+        _report_left_out([names[i] for i in columns if headings[i].quantity not in OF_PLATES], warnings, "load")
     else:
+        kind = "insole"
+        every = True
         feet, raw = _cells(table, names, headings, columns, both, facts, options, propose, warnings)
     return PressureRecording(
         path=path,
@@ -110,7 +107,7 @@ def recording_of_columns(
         metadata={**facts, "sees_every_step": every},
         warnings=(*warnings, *notes),
         raw=raw,
-        kind="plate" if kind == "plate" else "insole",
+        kind=kind,
     )
 
 
@@ -132,21 +129,24 @@ def _laid_out(table: NDArray[np.float64], options: ReadOptions, warnings: list[s
 
 def _clock(table: NDArray[np.float64], names: list[str]) -> int | None:
     """Column of times: one that is called so, or rises throughout and is called like one."""
-    at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
-    if at is not None:
-        return at
+    if timed := time_columns(names):
+        return timed[0]
     like = 0 if not names[0] else next((i for i, n in enumerate(names) if _CLOCK.search(n)), None)
     return like if like is not None and (np.diff(table[:, like]) > 0.0).all() else None
 
 
 def _repeated(
-    table: NDArray[np.float64], names: list[str], columns: Sequence[int], warnings: list[str]
+    table: NDArray[np.float64],
+    names: list[str],
+    headings: Sequence[Heading],
+    columns: Sequence[int],
+    warnings: list[str],
 ) -> tuple[set[int], dict[Side, list[int]]]:
     """Load columns that copy an earlier one, and each foot's cells where all names begin again halfway."""
     keys = {
         i: (h.quantity, h.axis, h.side, h.number, plain(h.unit), "" if h.axis else h.words)
         for i in columns
-        if names[i] and (h := heading_of(names[i])).quantity in ("force", "pressure", "cell", "number")
+        if names[i] and (h := headings[i]).quantity in OF_CELLS
     }
     loads = list(keys)
     half = len(keys) // 2
@@ -169,20 +169,19 @@ def _repeated(
         if not np.array_equal(table[:, first], table[:, i], equal_nan=True):
             raise FormatError(
                 f"columns {first + 1} and {i + 1} have one name, {names[i]!r}, and different values; allowed: a name "
-                f"for each, such as left 1, left 2 or FP1 Fz, FP2 Fz{_map_of_plates(names)}"
+                f"for each, such as left 1, left 2 or FP1 Fz, FP2 Fz{_map_of_plates(names, headings)}"
             )
         copies.add(i)
         warnings.append(f"column {names[i]!r} is there twice with the same values: it counts once")
     return copies, {}
 
 
-def _map_of_plates(names: Sequence[str]) -> str:
+def _map_of_plates(names: Sequence[str], headings: Sequence[Heading]) -> str:
     """The map of columns whose names begin again for each plate, as BioWare writes them; else empty."""
     letters = {"force": "F", "cop": "COP", "moment": "M"}
-    parts = [f"time={i + 1}" for i, name in enumerate(names) if time_unit(name) is not None][:1]
+    parts = [f"time={i + 1}" for i in time_columns(names)[:1]]
     seen: list[str] = []
-    for i, name in enumerate(names):
-        heading = heading_of(name)
+    for i, heading in enumerate(headings):
         if heading.axis in ("x", "y", "z") and heading.quantity in letters and not (heading.side or heading.number):
             what = f"{letters[heading.quantity]}{heading.axis}"
             seen.append(what)
@@ -191,14 +190,13 @@ def _map_of_plates(names: Sequence[str]) -> str:
 
 
 def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
-    trial = any({"subject", "trial", "session", "participant"} & set(h.words.split()) for h in headings)
-    if at is None and (trial or any("trialid" in h.words for h in headings)):
-        stems = [h.words for h in headings if h.number is not None]
-        if stems and max(map(stems.count, set(stems))) >= _CURVES:
-            raise FormatError(
-                "each row is a curve of a trial, since columns name subjects or trials and the rest is numbered; "
-                "allowed: a row a frame, with a column of times or --rate"
-            )
+    alike = Counter(h.words for h in headings if h.number is not None)
+    curves = max(alike.values(), default=0) >= _CURVES
+    if at is None and curves and any(_TRIAL.search(h.words) for h in headings):
+        raise FormatError(
+            "each row is a curve of a trial, since columns name subjects or trials and the rest is numbered; "
+            "allowed: a row a frame, with a column of times or --rate"
+        )
 
 
 def _refuse_feet_in_turns(table: NDArray[np.float64], at: int) -> None:
@@ -240,17 +238,15 @@ def _refuse_steps(table: NDArray[np.float64], headings: Sequence[Heading]) -> No
 
 def _side_by_side(
     table: NDArray[np.float64], names: list[str], at: int | None, of_side: int, warnings: list[str]
-) -> tuple[NDArray[np.float64], list[str]]:
+) -> tuple[NDArray[np.float64], list[str], int | None]:
     rows = rows_of_sides(table[:, of_side], warnings)
     cells = [i for i in range(table.shape[1]) if i not in (at, of_side)]
-    time = np.arange(len(table), dtype=float) if at is None else table[:, at]
+    times = {side: np.arange(len(own), dtype=float) if at is None else table[own, at] for side, own in rows.items()}
+    time, feet = on_one_time({side: (times[side], table[own][:, cells]) for side, own in rows.items()}, warnings)
+    named = [f"{side} {names[i]}" for side in feet for i in cells]
     if at is None:
-        for own in rows.values():
-            time[own] = np.arange(len(own))
-    time, feet = on_one_time({side: (time[own], table[own][:, cells]) for side, own in rows.items()}, warnings)
-    head = [] if at is None else [names[at]]
-    found = [*head, *(f"{side} {names[i]}" for side in feet for i in cells)]
-    return np.column_stack([*([] if at is None else [time]), *feet.values()]), found
+        return np.column_stack(list(feet.values())), named, None
+    return np.column_stack([time, *feet.values()]), [names[at], *named], 0
 
 
 def _on_one_clock(
@@ -293,7 +289,7 @@ def _times(
     if at is None or options.rate_hz is not None:
         rate = or_usual(stated, "the table has no times and states no rate", warnings)
         return np.arange(len(table)) / rate, rate, ()
-    time = in_seconds(table[:, at], time_unit(names[at]) if names else None, stated, warnings)
+    time = in_seconds(table[:, at], time_unit(names[at]), stated, warnings)
     if len(known := time[np.isfinite(time)]) and abs(known[0]) > 1e5:
         warnings.append(f"the times begin at {known[0]:.10g} s: here they count from the first frame")
         time = time - known[0]
@@ -310,12 +306,10 @@ def _report_left_out(names: Sequence[str], warnings: list[str], what: str) -> No
 
 def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[int]:
     """Columns of cells: numbered, or placed on the sole; a foot's one column where it has no others."""
-    stated = any(find_unit(headings[i].unit) is not None for i in columns if headings[i].unit)
-
-    def foreign(i: int) -> bool:  # where some state a unit of load, what is in another one is no load
-        return bool(stated and headings[i].unit and find_unit(headings[i].unit) is None)
-
-    known = [i for i in columns if headings[i].quantity in ("cell", "number", "pressure", "force") and not foreign(i)]
+    units = {i: find_unit(headings[i].unit) for i in columns}
+    # Where some state a unit of load, what is in another one is no load.
+    foreign = {i for i, unit in units.items() if unit is None and headings[i].unit} if any(units.values()) else set()
+    known = [i for i in columns if headings[i].quantity in OF_CELLS and i not in foreign]
     cells = [i for i in known if headings[i].number is not None or headings[i].quantity == "cell"]
     parted = {headings[i].side for i in cells}
     # A column of a foot without number or place is its only one, or the total of its cells.

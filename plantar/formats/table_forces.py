@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.errors import FormatError
-from plantar.formats.field_names import BODY_WEIGHTS, Heading
+from plantar.formats.field_names import BODY_WEIGHTS, OF_PLATES, Heading
 from plantar.formats.force_plates import feet_of_plates
 from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import Plate
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
-from plantar.recordings.pressure_recording import FootRecording
+from plantar.recordings.pressure_recording import FootRecording, Kind
 
 _Key = tuple[Side | None, int | None]
 # The two horizontal axes, right-handed with each vertical one.
@@ -57,7 +57,7 @@ def feet_of_forces(
     options: ReadOptions,
     stated: str | None,
     warnings: list[str],
-) -> tuple[dict[Side, FootRecording], bool, str, bool]:
+) -> tuple[dict[Side, FootRecording], bool, Kind, bool]:
     """Returns feet; whether every step is seen; "plate" or "insole"; and whether forces are percent of body weight.
 
     `table`: numbers (n, k); `columns`: headings by column number, without times; `stated`: unit in comments;
@@ -71,7 +71,10 @@ def feet_of_forces(
         for key, own in loaded.items()
         if (a := next((a for a in ("vertical", up, "") if a in own["force"]), None)) is not None
     }
-    _check_units([columns[i] for own in loaded.values() for i in own["force"].values()], options)
+    forces = [columns[i] for own in loaded.values() for i in own["force"].values()]
+    units = dict.fromkeys(h.unit for h in forces if h.unit)
+    if len(set(map(plain, units))) > 1 and not options.unit:
+        raise FormatError(f"the forces are in different units: {', '.join(units)}; allowed: one unit, or --unit")
     unit, relative = _unit(
         table, columns, [loaded[k]["force"][a] for k, a in verticals.items()], options, stated, warnings
     )
@@ -81,7 +84,7 @@ def feet_of_forces(
     scale = 100.0 / _NOMINAL if relative else 1.0
     sides = [p.side for p in made if p.side]
     named = len(sides) == len(made)
-    if named and len(made) <= 2 and not any(columns[i].plate for o in loaded.values() for i in o["force"].values()):
+    if named and len(made) <= 2 and not any(h.plate for h in forces):
         totals = {s: _upward(p.force[:, 2] * scale, p.name, warnings) for s, p in zip(sides, made, strict=True)}
         feet = {s: FootRecording(s, totals[s][:, None], None, total=totals[s]) for s in SIDES if s in totals}
         warnings.append("one force a foot: no cells, so no pressures, areas and centres of pressure")
@@ -97,19 +100,19 @@ def feet_of_forces(
 def _take_out_marks(table: NDArray[np.float64], columns: Mapping[int, Heading], warnings: list[str]) -> None:
     """NaN for a repeated value that is farther from all others than half of what these range over, such as -999."""
     count = 0
-    marks = dict[float, None]()
+    marks: list[str] = []
     for i, h in columns.items():
         value, times = np.unique(table[np.isfinite(table[:, i]), i], return_counts=True)
-        if h.quantity not in ("force", "cop", "moment", "place") or len(value) < _LEVELS:
+        if h.quantity not in OF_PLATES or len(value) < _LEVELS:
             continue
         least = 0.5 * (value[-2] - value[1])
         for mark, near, often in ((value[0], value[1], times[0]), (value[-1], value[-2], times[-1])):
             if abs(mark) >= _LEAST and mark == round(mark) and often >= _FEWEST and abs(mark - near) > least:
                 table[table[:, i] == mark, i] = np.nan
                 count = count + int(often)
-                marks = {**marks, float(mark): None}
+                marks.append(f"{mark:g}")
     if marks:
-        shown = ", ".join(f"{mark:g}" for mark in marks)
+        shown = ", ".join(dict.fromkeys(marks))
         warnings.append(f"{count} value(s) are {shown}, far from all others: taken as marks for what was not measured")
 
 
@@ -117,17 +120,9 @@ def _by_plate(columns: Mapping[int, Heading]) -> dict[_Key, dict[str, dict[str, 
     groups: dict[_Key, dict[str, dict[str, int]]] = {}
     both = {h.side for h in columns.values() if h.quantity == "force"} >= set(SIDES)
     for i, h in columns.items():
-        if h.quantity in ("force", "cop", "moment", "place") and (
-            h.side is not None or not both or _TOTALS.isdisjoint(h.words.split())
-        ):
+        if h.quantity in OF_PLATES and (h.side or not both or _TOTALS.isdisjoint(h.words.split())):
             groups.setdefault((h.side, h.number), {}).setdefault(h.quantity, {}).setdefault(h.axis, i)
     return {key: own for key, own in groups.items() if "force" in own}
-
-
-def _check_units(forces: Sequence[Heading], options: ReadOptions) -> None:
-    units = dict.fromkeys(h.unit for h in forces if h.unit)
-    if len(set(map(plain, units))) > 1 and not options.unit:
-        raise FormatError(f"the forces are in different units: {', '.join(units)}; allowed: one unit, or --unit")
 
 
 def _upward(force: NDArray[np.float64], name: str, warnings: list[str]) -> NDArray[np.float64]:
@@ -145,19 +140,13 @@ def _scaled(foot: FootRecording, scale: float) -> FootRecording:
 
 
 def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[str, int]]], warnings: list[str]) -> str:
-    load = dict.fromkeys("xyz", 0.0)
-    named = False
-    for own in groups.values():
-        named = named or "vertical" in own["force"]
-        for axis in "xyz":
-            if axis in own["force"]:
-                column = np.abs(table[:, own["force"][axis]])
-                known = column[np.isfinite(column)]
-                load[axis] += float(np.percentile(known, 95.0) if len(known) else 0.0) + float(
-                    known.mean() if len(known) else 0.0
-                )
-    up = max("zyx", key=lambda a: load[a])
-    if up != "z" and not named and load[up] > 0.0:
+    load = dict.fromkeys("zyx", 0.0)
+    forces = [own["force"] for own in groups.values()]
+    for axis, i in [(a, own[a]) for own in forces for a in load if a in own]:
+        known = np.abs(table[np.isfinite(table[:, i]), i])
+        load[axis] += float(np.percentile(known, 95.0) + known.mean()) if len(known) else 0.0
+    up = max(load, key=lambda a: load[a])
+    if up != "z" and not any("vertical" in own for own in forces):
         warnings.append(f"the largest force acts along {up}: taken as the vertical axis")
     return up
 
@@ -172,27 +161,13 @@ def _unit(
 ) -> tuple[float, bool]:
     """N in one force unit, and whether relative to an unknown body weight."""
     text = options.unit or next((columns[i].unit for i in verticals if columns[i].unit), "") or stated or ""
-    name = plain(text)
-    weight = None if options.mass_kg is None else options.mass_kg * GRAVITY
     largest = float(np.nanpercentile(np.abs(table[:, list(verticals)]), 99.5)) if verticals and len(table) else 0.0
     if not text and _WEIGHTS[0] <= largest <= _WEIGHTS[1]:
         text = "BW"
-        name = "bw"
         warnings.append(
             f"the forces state no unit and reach {largest:.3g}: taken as body weights, where kN or volts would reach "
             "as much (--unit overrides)"
         )
-    if name in ("n/kg", "newton/kg", "nkg-1", "n/kgbm"):
-        text = "N/kg"
-        name = "bw"
-        factor = 1.0 / GRAVITY
-    else:
-        factor = BODY_WEIGHTS.get(name, 1.0)
-    if name in BODY_WEIGHTS:
-        if weight is None:
-            warnings.append(f"forces are in {text}: given in percent of body weight; --mass makes N of them")
-            return factor * _NOMINAL, True
-        return factor * weight, False
     if not text and largest < _LEAST_NEWTONS:
         raise FormatError(
             f"the forces state no unit and reach {largest:.3g}, which no foot presses in N; allowed: --unit N, kN, "
@@ -200,9 +175,15 @@ def _unit(
         )
     if not text:
         warnings.append(f"the forces state no unit: N is assumed, in which they reach {largest:.4g} (--unit overrides)")
-    elif name not in FORCES:
+    name = plain(text or "N")
+    if name in FORCES:
+        return FORCES[name], False
+    if name not in BODY_WEIGHTS:
         raise FormatError(f"unknown unit of force {text!r}; allowed: N, kN, kg, lbf, BW, %BW, N/kg")
-    return FORCES.get(name, 1.0), False
+    if options.mass_kg is None:
+        warnings.append(f"forces are in {text}: given in percent of body weight; --mass makes N of them")
+        return BODY_WEIGHTS[name] * _NOMINAL, True
+    return BODY_WEIGHTS[name] * (options.mass_kg * GRAVITY), False
 
 
 def _plate(
@@ -222,7 +203,7 @@ def _plate(
 
     def of(quantity: Mapping[str, int], axis: str, other: str) -> NDArray[np.float64]:
         i = quantity.get(axis, quantity.get(other))
-        return unknown if i is None or axis == vertical else table[:, i]
+        return unknown if i is None else table[:, i]
 
     ahead, across = _UPRIGHT[up]
     force = unit * np.column_stack([of(forces, ahead, "ap"), of(forces, across, "ml"), table[:, forces[vertical]]])

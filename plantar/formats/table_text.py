@@ -64,11 +64,11 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
             or sum(good) < 0.8 * len(good)
         ):
             continue
-        if rows and first == 0 and len(rows) > 1 and all(c.strip().isdigit() for c in rows[0].split(delimiter)):
-            numbered = not all(c.strip().isdigit() for c in rows[1].split(delimiter))
-            ascending = [int(c) for c in rows[0].split(delimiter)] == list(range(1, width + 1))
-            if numbered or ascending:
-                return TableHead([c.strip() for c in rows[0].split(delimiter)], delimiter, width, 1, {})
+        numbers, *below = ([c.strip() for c in x.split(delimiter)] for x in rows[:2])
+        if first == 0 and below and all(map(str.isdecimal, numbers)):
+            ascending = list(map(int, numbers)) == list(range(1, width + 1))
+            if ascending or not all(map(str.isdecimal, below[0])):
+                return TableHead(numbers, delimiter, width, 1, {})
         names, above = _names(lines[:first], delimiter, width)
         return TableHead(names, delimiter, width, first, _facts(lines[:above], delimiter), labels)
     data = [line for line in lines if not line.startswith("#")]
@@ -90,21 +90,17 @@ def _name_alone(above: Sequence[str]) -> str | None:
 
 
 def _delimiter(lines: Sequence[str]) -> str | None:
-    if not lines:
-        return None
-    best = max("\t;|,", key=lambda d: (min(x.count(d) for x in lines) > 0, d != ","))
-    return best if min(x.count(best) for x in lines) > 0 else None
+    return next((sign for sign in "\t;|," if all(sign in x for x in lines)), None)
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:
-    line = line.rstrip("\r\n")
-    return next(without_quotes(iter([line]))).split(delimiter) if delimiter == "," else line.split(delimiter)
+    return (without_quotes(line) if delimiter == "," else line).split(delimiter)
 
 
 def _width(rows: Sequence[str], delimiter: str | None, named: int) -> int:
     cells = [_cells(x, delimiter) for x in rows]
     counts = list(map(len, cells))
-    width = max(set(counts), key=counts.count, default=0)
+    width = max(set(counts), key=counts.count)
     while width > max(1, named) and all(len(c) >= width and not c[width - 1].strip() for c in cells):
         width -= 1
     return width
@@ -134,8 +130,8 @@ def _is_number(text: str) -> bool:
 def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str], str | None] | None:
     delimiter = _delimiter([above])
     names = [c[:_LONGEST_NAME] for c in names_of_row(above.lstrip("#"), delimiter)]
-    words = sum(bool(re.search(r"[^\W\d_]", c)) for c in names[:1000])
-    wide = delimiter is not None and len(names) > max(3, 2 * width) and words >= 0.5 * min(len(names), 1000)
+    wide = delimiter is not None and len(names) > max(3, 2 * width)
+    wide = wide and _with_letters(names[:1000]) >= 0.5 * min(len(names), 1000)
     return (names, delimiter) if wide and all(_numbers(x, delimiter) for x in rows) else None
 
 
@@ -154,45 +150,44 @@ _PLATE = re.compile(r".*\b(?:\w*plat(?:e|te|t?form|eforme)|fp|kistler|amti|berte
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
     if len(above) >= len(_VISUAL3D) and above[-1].startswith("ITEM"):
-        signals, kinds, _, axes = (names_of_row(line.rstrip("\r\n"), delimiter) for line in above[-4:])
+        signals, kinds, _, axes = (names_of_row(line, delimiter) for line in above[-4:])
         if {len(signals), len(kinds), len(axes)} == {width}:
             parts = zip(signals, kinds, axes, strict=True)
             names = [f"{signal} {kind if kind in _VISUAL3D else ''} {axis}" for signal, kind, axis in parts]
             return ["Frame", *names[1:]], len(above) - len(_VISUAL3D)
-    at = len(above) - 1
-    rows = []
-    for line in above[-3:]:
-        cells = names_of_row(line.lstrip("#").rstrip("\r\n"), delimiter)
-        cells = [c[:_LONGEST_NAME] for c in cells]
-        rows.append(cells[:width] if len(cells) > width and not any(cells[width:]) else cells)
-    while rows and len(rows[-1]) == width - 1 and rows[-1] and width > 2 and not rows[-1][0]:
+    rows = [[c[:_LONGEST_NAME] for c in names_of_row(line.lstrip("#"), delimiter)] for line in above[-3:]]
+    rows = [cells if any(cells[width:]) else cells[:width] for cells in rows]
+    if rows and len(rows[-1]) == width - 1 > 1 and not rows[-1][0]:
         rows[-1] = ["", *rows[-1]]
     if not rows or not _names_columns(rows[-1], width):
         return [], len(above)
-    names = rows[-1] + [""] * (width - len(rows[-1]))
-    if len(rows) > 1 and all(plain(c) in _UNITS for c in names) and _names_columns(rows[-2], width):
-        units = names
-        at = at - 1
-        rows.pop()
-        names = [
-            f"{n} [{u}]" if u.strip("-[]() ") and "[" not in n and "(" not in n else n
-            for n, u in zip(rows[-1] + [""] * (width - len(rows[-1])), units, strict=True)
-        ]
-    if len(rows) > 1 and side_of(*names) is None and len(rows[-2]) > 1:
-        groups = []
-        last = ""
-        for cell in rows[-2] + [""] * (width - len(rows[-2])):
-            last = (cell if side_of(cell) else _PLATE.sub(r"FP\1", cell)) or last
-            groups.append(last)
-        if len(rows[-2]) <= width and any(side_of(g) or heading_of(g).plate for g in groups):
-            names = [f"{g} {n}".strip() if time_unit(n) is None else n for g, n in zip(groups, names, strict=True)]
+    at = len(above) - 1
+    names = _padded(rows.pop(), width)
+    if rows and all(plain(c) in _UNITS for c in names) and _names_columns(rows[-1], width):
+        at -= 1
+        named = zip(_padded(rows.pop(), width), names, strict=True)
+        names = [f"{n} [{u}]" if u.strip("-[]() ") and not {"[", "("} & set(n) else n for n, u in named]
+    if rows and 1 < len(rows[-1]) <= width and side_of(*names) is None:
+        groups = [cell if side_of(cell) else _PLATE.sub(r"FP\1", cell) for cell in _padded(rows[-1], width)]
+        if any(side_of(g) or heading_of(g).plate for g in groups):
             at -= 1
+            for i in range(1, width):
+                groups[i] = groups[i] or groups[i - 1]
+            names = [n if time_unit(n) is not None else f"{g} {n}".strip() for g, n in zip(groups, names, strict=True)]
     return names, at
 
 
+def _padded(cells: list[str], width: int) -> list[str]:
+    return cells + [""] * (width - len(cells))
+
+
 def _names_columns(cells: Sequence[str], width: int) -> bool:
-    words = sum(bool(re.search(r"[^\W\d_]", c)) for c in cells)
-    return 0.6 * width <= len(cells) <= width and (_are_numbered(cells) or words >= max(1, 0.25 * len(cells)))
+    named = _are_numbered(cells) or _with_letters(cells) >= max(1, 0.25 * len(cells))
+    return 0.6 * width <= len(cells) <= width and named
+
+
+def _with_letters(cells: Sequence[str]) -> int:
+    return sum(bool(re.search(r"[^\W\d_]", c)) for c in cells)
 
 
 def _are_numbered(cells: Sequence[str]) -> bool:
@@ -216,7 +211,6 @@ def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:
 
 
 _QUOTED = re.compile(r'"([^"]*)"')
-_QUOTED_COMMA = re.compile(r'"[^",]*,[^"]*"')
 # A time of day, which may stand after a date of any order: by itself it goes on beyond midnight all the same.
 _CLOCK = re.compile(
     r"(?:\d[\d./-]+\d[ T]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+|:\d{3})?)(?: ?([AaPp])\.?[Mm]\.?)?"
@@ -265,29 +259,24 @@ def time_unit(name: str) -> float | None:
     return None if match is None else seconds_of_unit((match["unit"] or match["alone"] or "").lower())
 
 
+def time_columns(names: Sequence[str]) -> list[int]:
+    """Which of some columns are called times."""
+    return [i for i, name in enumerate(names) if time_unit(name) is not None]
+
+
 def seconds_of_unit(unit: str) -> float:
     """Seconds of a lower-case unit of time; 0 of none."""
     return _SECONDS.get(unit, _SECONDS.get(unit[:-1], 0.0))
 
 
-def without_quotes(lines: Iterator[str]) -> Iterator[str]:
-    """Yields comma-separated lines: `"1,5","2,5"` as `1.5,2.5`, those without quoted commas unchanged.
+def without_quotes(line: str) -> str:
+    """A comma-separated line with numbers in quotes, which may have decimal commas, as plain numbers.
 
     Example:
-        >>> list(without_quotes(iter(['0.01,"1,5","-2,25"', '"0.02","1","1,234.5"'])))
-        ['0.01,1.5,-2.25', '0.02,1,1234.5']
+        >>> without_quotes('0.01,"1,5","-2,25"'), without_quotes('"0.02","1","1,234.5"')
+        ('0.01,1.5,-2.25', '0.02,1,1234.5')
     """
-    for line in lines:
-        yield _QUOTED.sub(_plain, line) if '"' in line else line
-
-
-def _plain(quoted: re.Match[str]) -> str:
-    return ungrouped(quoted[1]).replace(",", ".")
-
-
-def has_quoted_commas(line: str) -> bool:
-    """Whether a quoted cell of a line holds a comma."""
-    return _QUOTED_COMMA.search(line) is not None
+    return _QUOTED.sub(lambda cell: ungrouped(cell[1]).replace(",", "."), line)
 
 
 def seconds_of_time(text: str) -> float | None:
