@@ -20,6 +20,7 @@ from plantar.gait.safety.fall_check import FallCheck
 from plantar.gait.safety.fault_log import FaultLog
 from plantar.gait.safety.safe_stop import SITS, SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
+from plantar.gait.safety.taxel_check import TaxelCheck
 from plantar.gait.safety.tick_clock import TickClock
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck, height_of_upright
 from plantar.kernels.safety.tracking import TrackingCheck
@@ -106,6 +107,7 @@ class SafetyShell:
         self._joints = joints
         self._body: BodyCheck | None = None
         self._soles = SoleCheck(self._weight, _UNLOADED * self._weight)
+        self._taxels = TaxelCheck(layouts, self._weight, period)
         self._stuck = round(_STUCK / period)
         self._bridged = round(_SILENT / period)
         self._silent = 0
@@ -207,7 +209,7 @@ class SafetyShell:
             return self._bridge(time)
         if self._body is not None and self._body.slipped:
             sensors = sensors.changed(joint_positions=sensors.joint_positions - self._body.slips)
-        readings = self._readings(sensors)
+        readings = self._readings(sensors, time)
         if readings is None:
             self.reason = "both soles missing, silent or stuck"
             return self._bridge(time)
@@ -323,13 +325,23 @@ class SafetyShell:
         found = self._body.check(joints, gyro, accelerometer)
         return found if found < 3 or self._last.phase.kind != PhaseKind.STANDING else 0
 
-    def _readings(self, sensors: Sensors) -> Readings | None:
+    def _readings(self, sensors: Sensors, time: float) -> Readings | None:
         """Each sole's reading under its side; a silent one follows from the other."""
         readings = sensors.readings
         soles = self._soles
         counts = self._counts
         left = readings.get("left")
         right = readings.get("right")
+        if left is not None and right is not None:
+            loads = (soles.left, soles.right)
+            sound = self._taxels.checked(readings, loads, sensors.accelerometer, self._last.phase, time)
+            if sound is not readings:
+                readings = sound
+                left = readings["left"]
+                right = readings["right"]
+                if self._taxels.found:
+                    self.log.note(self._taxels.found)
+                    self._taxels.found = ""
         seen = _UNREAD
         if left is not None and right is not None and self._lost is None:
             seen = soles.look(left.force, counts["left"], right.force, counts["right"])
