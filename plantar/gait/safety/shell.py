@@ -44,6 +44,8 @@ _LANDING = 0.15  # s of double support within which a foot comes down that lands
 _EMPTY = 0.05  # weight on both soles of a robot that stands on both feet, below which both are silent
 _UNKNOWN = 2.0  # s after which a blind robot sits, and goes limp where neither IMU nor soles show that it stands
 _STALLED = 0.1  # s by which a tick comes late, and is noted
+_OFTEN = 0.3  # missed ticks of each, in the mean of 20
+_AGAIN = 2.0  # s in which what is noted is not noted again
 _OFF = 0.5  # rad by which a joint misses its target; with a quarter of the drives' stiffness knees miss it by 0.3
 _OFF_FOR = 0.015  # s after which it is off
 _MOST_OFF = 2  # joints whose encoders fail at a time; more are moved from outside, as by a blow
@@ -108,6 +110,9 @@ class SafetyShell:
         self._body: BodyCheck | None = None
         self._soles = SoleCheck(self._weight, _UNLOADED * self._weight)
         self._taxels = TaxelCheck(layouts, self._weight, period)
+        self._noted: dict[str, float] = {}
+        self._jumps = 0
+        self._missed = 0.0
         self._stuck = round(_STUCK / period)
         self._bridged = round(_SILENT / period)
         self._silent = 0
@@ -158,8 +163,12 @@ class SafetyShell:
         except (AttributeError, TypeError, ValueError):
             reported = math.nan
         time = self._clock.time_of(reported)
-        if self._clock.jumped > _STALLED:
-            self.log.note(f"a tick came {self._clock.jumped:.2f} s late: the loop stalled, or its clock jumped")
+        late = self._clock.late
+        if late:
+            self._soles.skip()
+        self._missed += 0.05 * (late - self._missed)
+        if self._clock.jumped or self._clock.odd or self._missed > _OFTEN:
+            self._note_clock(self._clock.jumped)
         try:
             command = self._stepped(sensors, time)
         except Exception as raised:  # of any kind: a robot that walks needs a command
@@ -176,6 +185,24 @@ class SafetyShell:
         if named != self._named:
             self._note_state(named)
         return command
+
+    def _note(self, kind: str, text: str) -> None:
+        """Log what the robot walks on with; each kind at times."""
+        time = self.log.time
+        if time - self._noted.get(kind, -math.inf) > _AGAIN:
+            self.log.note(text)
+        self._noted[kind] = time
+
+    def _note_clock(self, jumped: float) -> None:
+        """Log a time that is not the one that was expected."""
+        if jumped > _STALLED:
+            self._note("clock", f"a tick came {jumped:.2f} s late: the loop stalled, or its clock jumped")
+        elif jumped < 0.0:
+            self._note("clock", f"the clock went back by {-jumped:.2f} s")
+        elif self._clock.odd:
+            self._note("clock", "times that are no numbers")
+        else:
+            self._note("clock", "times come late again and again: ticks are missed, or the clock jitters")
 
     def _note_state(self, named: str | None) -> None:
         """Log a state that has just begun."""
@@ -207,8 +234,9 @@ class SafetyShell:
         if problem:
             self.reason = _PROBLEMS[problem]
             return self._bridge(time)
-        if self._body is not None and self._body.slipped:
-            sensors = sensors.changed(joint_positions=sensors.joint_positions - self._body.slips)
+        body = self._body
+        if body is not None and (body.slipped or body.missing):
+            sensors = self._with_slips(body, sensors)
         readings = self._readings(sensors, time)
         if readings is None:
             self.reason = "both soles missing, silent or stuck"
@@ -254,6 +282,16 @@ class SafetyShell:
             return sensors
         angles = np.where(self._tracking.off > 0.0, commanded, sensors.joint_positions)
         return sensors.changed(joint_positions=angles)
+
+    def _with_slips(self, body: BodyCheck, sensors: Sensors) -> Sensors:
+        """Sensors without the jumps of encoders."""
+        if body.missing:
+            self._note("missing", "encoders or IMU without a number")
+        if body.jumps != self._jumps:
+            self._jumps = body.jumps
+            joint = body.last_slip
+            self._note(f"slip {joint}", f"encoder of joint {joint}, counted from 0: it jumped, which is taken off")
+        return sensors.changed(joint_positions=sensors.joint_positions - body.slips) if body.slipped else sensors
 
     def _checked(self, bring_up: BringUp, sensors: Sensors) -> Command:
         """A tick of bring-up, whose own look at the IMU counts until it is known to be wired right."""
@@ -305,6 +343,8 @@ class SafetyShell:
     def _bridge(self, time: float) -> Command:
         """A tick without usable reading: on with the last briefly, then blind."""
         self._silent += 1
+        if self._silent == 1:
+            self._note("unusable", self.reason)
         if self._silent > self._bridged:
             self.state = "blind" if self._begun else "waiting"
         if self.state is None and self._sound is not None:
@@ -322,7 +362,7 @@ class SafetyShell:
         if self._body is None:
             self._joints = len(joints) if self._joints is None else self._joints
             self._body = BodyCheck(self._joints, self._stuck, max(_SLIP, _JERK * self._period**2))
-        found = self._body.check(joints, gyro, accelerometer)
+        found = self._body.check(joints, gyro, accelerometer, 1 + self._clock.late)
         return found if found < 3 or self._last.phase.kind != PhaseKind.STANDING else 0
 
     def _readings(self, sensors: Sensors, time: float) -> Readings | None:
@@ -353,18 +393,19 @@ class SafetyShell:
         left = _sound(readings, "left", counts["left"])
         right = _sound(readings, "right", counts["right"])
         if left is None or right is None:
-            lost: Side | None = "left" if left is None else "right"
-            return None if left is right else self._replaced(sensors, readings, lost)
+            missing: Side = "left" if left is None else "right"
+            return None if left is right else self._replaced(readings, missing)
         if seen == _UNREAD:
             soles.update(left.force, counts["left"], right.force, counts["right"])
         if soles.swapped:
             if counts["left"] != counts["right"]:
                 return None
+            self._note("swapped", "soles exchanged")
             readings = {"left": right, "right": left}
         if self._both_silent(soles, sensors.accelerometer):
             return None
         lost = self._silent_sole(soles, sensors.accelerometer)
-        return readings if lost is None else self._replaced(sensors, readings, lost)
+        return readings if lost is None else self._replaced(readings, lost)
 
     def _both_silent(self, soles: SoleCheck, accelerometer: NDArray[np.float64]) -> bool:
         """Whether both soles are stuck, or unloaded while the robot stands on both."""
@@ -399,10 +440,9 @@ class SafetyShell:
             self._lost = phase.stance or ("left" if soles.left < soles.right else "right")
         return self._lost
 
-    def _replaced(self, sensors: Sensors, readings: Readings, lost: Side | None) -> Readings | None:
+    def _replaced(self, readings: Readings, lost: Side) -> Readings | None:
         """Readings with a silent sole's as an even load, the other's remainder."""
-        if lost is None:
-            return readings
+        self._note(f"{lost} sole", f"{lost} sole missing, silent or stuck: its load follows from the other's")
         other = other_side(lost)
         reading = readings[other]
         total = float(np.nansum(reading.force))

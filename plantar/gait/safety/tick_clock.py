@@ -4,6 +4,7 @@ import math
 
 _NEAR = 0.5  # periods that a tick may come early or late by and still be taken as it is
 _FOLLOWED = 0.1  # s that a clock may be off by and still be followed, slowly
+_STALLED = 0.5  # s of a stall beyond which joints are not expected to move farther
 _DRAWN = 0.02  # share of an error that a tick follows
 _MOST_DRAWN = 0.2  # periods by which a tick is longer or shorter for that
 
@@ -15,7 +16,8 @@ class TickClock:
     off is another zero.
 
     `period` of control in s; `latest`: first time in s that may be; after a later or negative one ticks count from 0.
-    Attributes `odd`: successive ticks with unusable times.
+    Attributes `odd`: successive ticks with unusable times; `jumped`: time in s by which the last one was another zero;
+    `late`: ticks by which it came later than the one before.
 
     Example:
         >>> clock = TickClock(0.005)
@@ -30,6 +32,8 @@ class TickClock:
         self._offset = 0.0
         self.odd = 0
         self.jumped = 0.0
+        self.late = 0
+        self._error = 0.0
 
     def time_of(self, reported: float) -> float:
         """A tick's time in s, after the last one's, by the `reported` time in s."""
@@ -40,6 +44,8 @@ class TickClock:
         expected = self._last + self._period
         error = reported + self._offset - expected
         self.jumped = 0.0
+        self.late = round(min(error - self._error, _STALLED) / self._period) if error > self._error else 0
+        self._error = 0.0
         if abs(error) <= _NEAR * self._period:
             self.odd = 0
             self._last = reported + self._offset
@@ -50,6 +56,7 @@ class TickClock:
             self.odd = 0
             most = _MOST_DRAWN * self._period
             expected += min(max(_DRAWN * error, -most), most)
+            self._error = error
         else:
             self.odd += 1
             self.jumped = error

@@ -20,10 +20,19 @@ cdef class BodyCheck:
     cdef readonly bint slipped
     cdef readonly object slips
     cdef object steps
+    cdef readonly int last_slip, jumps
+    cdef readonly bint missing
+    cdef int gyro_same, force_same, far, passed
+    cdef double far_angle
+    cdef bint mirrored
     @cython.locals(
-        steps=cython.p_double, n=int, i=int, jumped=int, jump=double, value=double, spin=double, shock=double
+        steps=cython.p_double, n=int, i=int, jumped=int, jump=double, value=double, spin=double, shock=double,
+        far=int, same=bint, still=bint, passed=int, change=double,
+        missing=bint
     )
-    cpdef int check(self, joints, gyro, accelerometer) except -1
+    cpdef int check(self, joints, gyro, accelerometer, int ticks=*) except -1
+    @cython.locals(confirmed=bint)
+    cdef bint _has_jumped(self, int joint, double angle, double before) noexcept
 
 @cython.final
 cdef class SoleCheck:
@@ -34,6 +43,7 @@ cdef class SoleCheck:
     cdef readonly bint swapped
     @cython.locals(one=double, other=double)
     cpdef int look(self, left, int left_count, right, int right_count) except -2
+    cpdef void skip(self) noexcept
     @cython.locals(new_left=double, new_right=double, old_left=double, old_right=double, near=double, anew=bint)
     cpdef int update(self, left, int left_count, right, int right_count) except -2
 

@@ -32,8 +32,14 @@ class BodyCheck:
     """Plausibility of joint angles and IMU, tick by tick.
 
     `frozen`: ticks of same bits after which sensors are stuck; `slip`: difference in rad of joint's last two steps by
-    which encoders jump. Attributes `imu_same`: ticks without a change of IMU; `joints_same`: ticks without a change of
-    any joint; `slipped`: whether an encoder has jumped, by `slips` (k,) in rad.
+    which encoders jump.
+
+    Attributes:
+        imu_same: Ticks without a change of gyro or of accelerometer.
+        joints_same: Ticks without a change of any joint.
+        missing: Whether a number of the last reading is NaN.
+        slipped: Whether an encoder has jumped, by `slips` (k,) in rad.
+        jumps: Number of jumps so far, the last one of the joint `last_slip`.
     """
 
     def __init__(self, joints, frozen, slip=0.02):
@@ -47,13 +53,22 @@ class BodyCheck:
         self.slipped = False
         self.slips = np.zeros(joints)
         self.steps = np.zeros(joints)
+        self.last_slip = -1
+        self.jumps = 0
+        self.missing = False
+        self.gyro_same = 0
+        self.force_same = 0
+        self.far = -1
+        self.far_angle = 0.0
+        self.mirrored = False
+        self.passed = 0
 
-    def check(self, joints, gyro, accelerometer):
-        """Check a reading: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in
-        m/s^2.
+    def check(self, joints, gyro, accelerometer, ticks=1):
+        """Check a reading, some `ticks` after the last one: joint angles (k,) in rad, gyro (3,) in rad/s and
+        accelerometer (3,) in m/s^2.
 
         Returns 0 for no fault, 1 impossible joint angle or a reading of other sizes, 2 impossible IMU, 3 stuck IMU, 4
-        stuck joints. NaN is not checked.
+        stuck joints. NaN is marked as `missing` alone.
         """
         n = self.joints
         if len(joints) != n or len(gyro) != 3 or len(accelerometer) != 3:
@@ -64,47 +79,80 @@ class BodyCheck:
         kept = memory.room(self.kept)
         slips = memory.room(self.slips)
         steps = memory.room(self.steps)
+        self.passed += ticks
+        passed = self.passed  # since the angles that are kept
         found = 0
         same = self.begun
+        far = -1
+        missing = False
         for i in range(n):
             value = q[i]
-            if math.fabs(value) >= _TURNED or (self.begun and math.fabs(value - kept[i]) >= _FAST):
+            if value != value:
+                missing = True
+            if math.fabs(value) >= _TURNED:
                 return 1
+            if self.begun and math.fabs(value - kept[i]) >= _FAST * ticks:
+                if far != -1:  # several encoders never jump at once
+                    return 1
+                far = i
             if value != kept[i]:
                 same = False
+        if far != -1 and not self._has_jumped(far, q[far], kept[far]):
+            return 1
         self.joints_same = self.joints_same + 1 if same else 0
         spin = 0.0
         shock = 0.0
         same = self.begun
+        still = self.begun
         for i in range(3):
             spin += w[i] * w[i]
             shock += a[i] * a[i]
-            if w[i] != kept[n + i] or a[i] != kept[n + 3 + i]:
+            if w[i] != w[i] or a[i] != a[i]:
+                missing = True
+            if w[i] != kept[n + i]:
                 same = False
+            if a[i] != kept[n + 3 + i]:
+                still = False
             kept[n + i] = w[i]
             kept[n + 3 + i] = a[i]
+        self.missing = missing
         if spin >= _SPIN * _SPIN or shock >= _SHOCK * _SHOCK or (spin == 0.0 and shock == 0.0):
             return 2
-        self.imu_same = self.imu_same + 1 if same else 0
+        self.gyro_same = self.gyro_same + 1 if same else 0
+        self.force_same = self.force_same + 1 if still else 0
+        self.imu_same = max(self.gyro_same, self.force_same)
         jumped = -1
         jump = 0.0
         for i in range(n):
             value = q[i] - kept[i] if self.begun else 0.0
             # A joint that was stuck catches up; several that jump together moved, as at an impact.
-            if math.fabs(value - steps[i]) > self.slip and steps[i] != 0.0:
-                jumped, jump = (i, value - steps[i]) if jumped == -1 else (n, 0.0)
-            steps[i] = value
+            change = value - steps[i] * passed
+            if math.fabs(change) > self.slip * passed and steps[i] != 0.0:
+                jumped, jump = (i, change) if jumped == -1 else (n, 0.0)
+            steps[i] = value / passed
             kept[i] = q[i]
         if 0 <= jumped < n:
             self.slipped = True
+            self.last_slip = jumped
+            self.jumps += 1
             slips[jumped] += jump
-            steps[jumped] -= jump
+            steps[jumped] -= jump / passed
         self.begun = True
+        self.passed = 0
         if self.imu_same >= self.frozen:
             found = 3
         elif self.joints_same >= self.frozen:
             found = 4
         return found
+
+    def _has_jumped(self, joint, angle, before):
+        """Whether the one angle that is far from `before` was there a tick ago, too, and did not turn its sign."""
+        if joint != self.far:
+            self.mirrored = math.fabs(angle + before) < self.slip
+        confirmed = joint == self.far and math.fabs(angle - self.far_angle) < self.slip
+        self.far = joint
+        self.far_angle = angle
+        return confirmed and not self.mirrored
 
 
 class SoleCheck:
@@ -134,6 +182,10 @@ class SoleCheck:
         if one != one or other != other:
             return -1
         return self.update(left, left_count, right, right_count)
+
+    def skip(self):
+        """Ticks were missed: loads may have changed in any way."""
+        self.steady = False
 
     def update(self, left, left_count, right, right_count):
         """Take a tick's forces: `left_count` on the `left` sole, `right_count` on the `right`, as wired.

@@ -8,7 +8,7 @@ import pytest
 
 from plantar.errors import InputError
 from plantar.gait.command import Sensors
-from plantar.kernels.safety.plausible import SoleCheck
+from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
 from plantar.sim.bench.stress.faults import FAULTS
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
@@ -29,6 +29,7 @@ WALKED_THROUGH = (
     "IMU NaN for 0.03 s",
     "gyro with noise of 0.05 rad/s",
     "gyro at 35 rad/s for a tick",
+    "one encoder off by 0.3 rad",
     "one encoder off by 0.24 rad",
     "one encoder off by 0.1 rad",
     "one encoder off by -0.1 rad",
@@ -144,3 +145,67 @@ def test_exchanged_soles_differ_from_a_shock(loads, swapped):
     for left, right in loads:
         check.update(np.array([left], dtype=float), 1, np.array([right], dtype=float), 1)
     assert check.swapped == swapped
+
+
+def test_loads_that_changed_in_a_stall_are_no_exchanged_soles():
+    check = SoleCheck(86.0 * 9.81)
+    for left, right in [(130, 660), (130, 655), (655, 132)]:
+        if left > 600:
+            check.skip()
+        check.update(np.array([left], dtype=float), 1, np.array([right], dtype=float), 1)
+    assert not check.swapped
+
+
+def checked_joints(changed, ticks=1):
+    """What `BodyCheck` returns of 12 joints that move at up to 0.6 rad/s, and of 10 ticks after they `changed`."""
+    check = BodyCheck(12, 24)
+    imu = np.random.default_rng(0).normal(size=(40, 6))
+    found = []
+    for i in range(20):
+        angles = 0.3 + 2.5e-4 * np.arange(12) * (i if i < 10 else i + ticks - 1)
+        found.append(
+            check.check(angles if i < 10 else changed(angles), imu[i, :3], imu[i, 3:], ticks if i == 10 else 1)
+        )
+    assert not any(found[:10])
+    return check, found[10:]
+
+
+def test_one_encoder_that_jumps_far_is_taken_back():
+    check, found = checked_joints(lambda angles: angles + 0.4 * (np.arange(12) == 8))
+    assert found == [1] + 9 * [0]  # the first one may be anything
+    assert check.jumps == 1
+    assert check.last_slip == 8
+    assert check.slips == pytest.approx(0.4 * (np.arange(12) == 8), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        lambda angles: angles * np.where(np.arange(12) == 8, -1.0, 1.0),  # a sign that has turned
+        lambda angles: angles + 0.4 * (np.arange(12) >= 10),  # two at once
+        lambda angles: angles + 100.0 * (np.arange(12) == 8),
+    ],
+)
+def test_other_far_jumps_are_refused(changed):
+    check, found = checked_joints(changed)
+    assert found == 10 * [1]
+    assert check.jumps == 0
+
+
+def test_joints_move_on_in_a_stall():
+    check, found = checked_joints(lambda angles: angles + 0.3, ticks=21)
+    assert not any(found)
+    assert check.jumps == 0
+
+
+@pytest.mark.parametrize("part", [slice(0, 3), slice(3, 6)])
+def test_a_gyro_or_an_accelerometer_that_is_stuck_alone_is_found(part):
+    check = BodyCheck(12, 24)
+    rng = np.random.default_rng(1)
+    found = []
+    for i in range(60):
+        imu = rng.normal(size=6)
+        if i >= 20:
+            imu[part] = 0.25
+        found.append(check.check(1e-3 * i + np.zeros(12), imu[:3].copy(), imu[3:].copy()))
+    assert found == 44 * [0] + 16 * [3]

@@ -39,3 +39,12 @@ def test_a_clock_with_jitter_is_followed_and_one_that_stops_is_noted():
     for _ in range(30):
         clock.time_of(math.nan)
     assert clock.odd == 30
+
+
+def test_a_late_tick_counts_those_before_it_that_were_missed():
+    clock = TickClock(0.005)
+    late = []
+    for reported in (0.0, 0.005, 0.02, 0.025, 0.225, 0.23):  # two are missed, then a stall of 0.2 s
+        clock.time_of(reported)
+        late.append(clock.late)
+    assert late == [0, 0, 2, 0, 39, 0]
