@@ -7,8 +7,10 @@ origin can do neither.
 
 import json
 import secrets
+import socket
 import threading
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -27,6 +29,8 @@ _MOST_BYTES = 200  # of a button's request
 _MOST_VIEWERS = 8
 _QUIET = 2.0  # s after which a line without content is sent: it shows whether a viewer is still there
 _PATIENCE = 5.0  # s for which a request may take
+_PICTURE = 1.0 / 60.0  # s between two states: a screen's
+_UNSENT = 1 << 14  # bytes that the system keeps for a viewer: some states, so that a slow one gets no old ones
 
 
 class LivePage:
@@ -63,8 +67,10 @@ class LivePage:
     ) -> None:
         self._token = secrets.token_urlsafe(16)
         self._news = threading.Condition()
-        self._state = b""
+        self._make: Callable[[], Mapping[str, Any]] = dict
         self._number = 0
+        self._state = b""
+        self._made = 0  # number of what `_state` holds
         self._ended = False
         self._viewers = threading.Semaphore(_MOST_VIEWERS)
         self._actions: SimpleQueue[str] = SimpleQueue()
@@ -89,15 +95,15 @@ class LivePage:
         self._server.shutdown()
         self._server.server_close()
 
-    def send(self, state: Mapping[str, Any]) -> None:
-        """Send a state to all viewers; one that is slow gets the latest.
+    def send(self, state: Mapping[str, Any] | Callable[[], Mapping[str, Any]]) -> None:
+        """Send a state to all viewers, each of which gets the latest one when its next picture is due.
 
         Args:
-            state: What `LiveState.as_dict` gives, with status, recording and time of arrival.
+            state: What `LiveState.as_dict` gives, with status, recording and time of arrival; or what gives it when it
+                is called, in another thread.
         """
-        text = json.dumps(state, separators=(",", ":"), allow_nan=False).encode()
         with self._news:
-            self._state = text
+            self._make = state if callable(state) else lambda: state
             self._number += 1
             self._news.notify_all()
 
@@ -110,11 +116,22 @@ class LivePage:
             except Empty:
                 return found
 
-    def _latest(self, known: int) -> tuple[int, bytes]:
-        """Number and text of the latest state after a known one; the known number after a quiet time."""
+    def _latest(self, known: int, due: float) -> tuple[int, bytes]:
+        """Number and text of the latest state after a known one, when its picture is due by the monotonic clock.
+
+        The known number after a quiet time; -1 at the end.
+        """
         with self._news:
-            self._news.wait_for(lambda: self._ended or self._number != known, _QUIET)
-            return (-1, b"") if self._ended else (self._number, self._state)
+            if not self._news.wait_for(lambda: self._ended or self._number != known, _QUIET):
+                return known, b""
+        time.sleep(max(0.0, due - time.monotonic()))
+        with self._news:
+            if self._number == known:
+                return -1, b""
+            if self._made != self._number:
+                self._state = json.dumps(self._make(), separators=(",", ":"), allow_nan=False).encode()
+                self._made = self._number
+            return self._number, self._state
 
 
 def _page(soles: Mapping[Side, SoleLayout], title: str, token: str, unit: Unit) -> bytes:
@@ -151,6 +168,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     server: _Server
     timeout = _PATIENCE
+    disable_nagle_algorithm = True  # else a state waits until the one before is acknowledged, 40 ms
     protocol_version = "HTTP/1.1"
 
     def log_message(self, *_: object) -> None:
@@ -214,9 +232,12 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_header("Cache-Control", "no-store")
             self.end_headers()
             self.close_connection = True
+            self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _UNSENT)
             known = 0
+            due = 0.0
             while True:
-                number, text = self.server.page._latest(known)
+                number, text = self.server.page._latest(known, due)
+                due = time.monotonic() + _PICTURE
                 if number < 0:
                     return
                 self.wfile.write(b":\n\n" if number == known else b"data: " + text + b"\n\n")

@@ -2,6 +2,7 @@
 
 import math
 import os
+import threading
 import time
 from collections import deque
 from collections.abc import Sequence
@@ -19,7 +20,6 @@ from plantar.sensing.reading import Reading
 from plantar.viewer.live_page import LivePage
 from plantar.viewer.live_state import LiveState
 
-_PICTURES = 1.0 / 60.0  # s between two states: a screen's
 _ZEROED = 0.5  # s of readings that a zero is the mean of
 
 
@@ -60,7 +60,7 @@ def record_with_page(
             if not recording.begun:
                 raise
         finally:
-            session.show()
+            page.send(session.shown())
     if recording.begun:
         return recording.summary()
     raise InputError("no reading came from the source, or none was recorded")
@@ -76,7 +76,8 @@ class _Session:
         self._records = True
         self._marks = 0
         self._arrived = 0.0
-        self._sent = -math.inf
+        self._silent = ""
+        self._lock = threading.Lock()  # of state and log, which the page's threads read
         self._shown = -math.inf
         self._recent: dict[Side, deque[Reading]] = {side: deque() for side in stream.soles}
         self._zero: dict[Side, Any] = {}
@@ -88,28 +89,29 @@ class _Session:
         if isinstance(item, LiveReading):
             item = self._zeroed(item)
             if not item.late:
-                self._state.take(item.side, item.reading)
-                self._arrived = time.time()
+                with self._lock:
+                    self._state.take(item.side, item.reading)
+                    self._arrived = time.time()
         elif isinstance(item, LiveEvent):
-            self._state.note(item.text)
+            with self._lock:
+                self._state.note(item.text)
         goes_on = self._recording.put(item) if self._records or not isinstance(item, LiveReading) else True
+        self._silent = f", nothing received for {item.seconds:.1f} s" if isinstance(item, Silence) else ""
+        self._page.send(self.shown)
         now = time.monotonic()
-        if now - self._sent >= _PICTURES or isinstance(item, Silence):
-            self._sent = now
-            self.show(item)
         if self._show is not None and now - self._shown >= SHOWN:
             self._shown = now
             self._show(self._recording.share, self._recording.text(item))
         return goes_on
 
-    def show(self, item: LiveItem | None = None) -> None:
-        """Send the page the present state; `item`: what came last."""
-        silent = f", nothing received for {item.seconds:.1f} s" if isinstance(item, Silence) else ""
+    def shown(self) -> dict[str, Any]:
+        """The present state, as the page shows it."""
         faults = sum(self._stream.faults.values())
         kept = f"{self._recording.latest:.1f} s recorded" if self._recording.begun else "not recorded"
-        status = f"{self._state.time:.1f} s, {kept}, faults: {faults}{silent}"
-        more = {"status": status, "recording": self._records, "arrived": round(1e3 * self._arrived)}
-        self._page.send({**self._state.as_dict(), **more})
+        with self._lock:
+            status = f"{self._state.time:.1f} s, {kept}, faults: {faults}{self._silent}"
+            more = {"status": status, "recording": self._records, "arrived": round(1e3 * self._arrived)}
+            return {**self._state.as_dict(), **more}
 
     def _act(self, action: str) -> None:
         if action == "zero":
@@ -126,7 +128,8 @@ class _Session:
             self._note("recording goes on" if self._records else "recording stopped")
 
     def _note(self, text: str) -> None:
-        self._state.note(text)
+        with self._lock:
+            self._state.note(text)
         self._recording.put(LiveEvent(self._state.time, text))
 
     def _zeroed(self, item: LiveReading) -> LiveReading:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from plantar import InputError, Reading, hex_layout
+from plantar import InputError, Reading, hex_layout, mirrored
 from plantar.formats import read_recording
 from plantar.live import CheckedStream, LiveStream
 from plantar.viewer.live_session import record_with_page
@@ -50,6 +50,23 @@ def test_zero_mark_and_record_go_into_the_recording(tmp_path):
     assert {"time", "soles", "measures", "log", "status", "recording", "arrived"} == set(page.states[-1])
     with pytest.raises(InputError, match="cannot record 0"):
         record_with_page(stream_of(), page, tmp_path / "b.mcap", 0.0)
+
+
+def test_each_reading_is_offered_to_the_page_as_it_comes(tmp_path):
+    """The right sole's readings follow the left one's by 1 ms: both are in what is shown before the next ones come."""
+    soles = {"left": SOLE, "right": mirrored(SOLE)}
+    page = Buttons({})
+    shown = []
+
+    def arrivals():
+        for k in range(50):
+            for side, after in (("left", 0.0), ("right", 0.001)):
+                yield side, Reading(0.04 * k + after, np.full(len(SOLE), float(k)))
+                if len(page.states) == 2 * k + (side == "right") + 1:
+                    shown.append(page.states[-1]()["soles"][side]["load"])
+
+    record_with_page(CheckedStream(LiveStream(soles, arrivals(), "insole")), page, tmp_path / "a.mcap")
+    assert shown == [float(k) * len(SOLE) for k in range(50) for _ in soles]
 
 
 def test_measures_are_those_of_the_steps_that_were_whole():
