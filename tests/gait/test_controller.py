@@ -37,8 +37,9 @@ def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(controller, yaw, as
     assert torso @ torso.T == pytest.approx(np.eye(3), abs=1e-12)
     assert np.linalg.det(torso) == pytest.approx(1.0)
     assert torso[:, 0] == pytest.approx(level_rotation(yaw)[:, 0], abs=1e-12)  # along the feet
-    reach = min(abs(aside), controller.settings.lean_reach)
-    assert torso[:, 2] @ left == pytest.approx(math.copysign(math.sin(2.0 * reach), aside), abs=1e-9)
+    settings = controller.settings
+    angle = (settings.trunk_lean + 2.0) * min(abs(aside), settings.lean_reach)
+    assert torso[:, 2] @ left == pytest.approx(math.copysign(math.sin(angle), aside), abs=1e-9)
     upright = controller.body_targets.posture(com - aside * left, yaw, 2.0)
     assert upright[:, 2] == pytest.approx([0.0, 0.0, 1.0], abs=1e-12)
 

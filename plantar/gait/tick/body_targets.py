@@ -32,7 +32,7 @@ class BodyTargets:
     ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
         """Returns CoM (3,) in m, heading in rad and torso rotation (3, 3).
 
-        `com` (2,), world frame, in m; `lean`: least needed in rad/m.
+        `com` (2,), world frame, in m; `lean`: what it needs besides its own in rad/m.
         """
         left = self._footing.motion.footholds["left"][1]
         right = self._footing.motion.footholds["right"][1]
@@ -48,7 +48,7 @@ class BodyTargets:
         """
         settings = self._settings
         footholds = self._footing.motion.footholds
-        lean = max(settings.trunk_lean, lean)
+        lean += settings.trunk_lean
         left = footholds["left"][0]
         right = footholds["right"][0]
         turn: NDArray[np.float64] = leaning_torso(com, left, right, torso, settings.lean_reach, lean, _ROUND)
