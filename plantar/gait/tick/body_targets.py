@@ -91,6 +91,8 @@ class BodyTargets:
         # The hip stays as far below the CoM as it is.
         above = float(state.com[2] - hip[2]) - self._settings.com_height
         reaches = motion.comes_to + leg.tallest(away) + above
+        if reaches >= target:
+            return target
         contacts = footing.contacts
         bears = stands + legs[stance].lowest_for(contacts.center(stance).item(0), 1.0 / contacts.mass_ratio)
         return min(target, max(reaches, bears))
