@@ -58,31 +58,19 @@ class FaultLog:
         """Keep a tick's numbers; what is no array, as of `sensors` that are None, is left out."""
         self._ticks += 1
         try:
-            joints = sensors.joint_positions
-            if len(joints) != self._joints:
-                self._begin(len(joints))
+            joints = len(sensors.joint_positions)
+            if joints != self._joints:
+                self._begin(joints)
             readings = sensors.readings
-            phase = command.phase
-            feet = command.feet
             if type(readings) is dict:
                 left = getattr(readings.get("left"), "force", None)
                 right = getattr(readings.get("right"), "force", None)
             else:
                 left = _force(readings, "left")
                 right = _force(readings, "right")
-            fields = (
-                joints,
-                sensors.gyro,
-                sensors.accelerometer,
-                left,
-                right,
-                command.com,
-                feet["left"].position,
-                feet["right"].position,
-            )
+            self._ring.add_tick(self._ticks * self._period, sensors, command, left, right)
         except (AttributeError, TypeError):
             return
-        self._ring.add(self._ticks * self._period, command.stiffness, phase.kind, phase.step, fields)
 
     def _begin(self, joints: int) -> None:
         """Forget all ticks, for those of another number of joints."""

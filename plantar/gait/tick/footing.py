@@ -96,12 +96,11 @@ class Footing:
 
     def align(self, state: BaseState) -> None:
         """Let the command frame follow the real carrying foot."""
-        side: Side = "left" if state.loads["left"] >= state.loads["right"] else "right"
-        if state.loads[side] <= self._settings.estimator.minimum_load:
-            return
-        position, yaw = self.motion.footholds[side]
-        turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
-        self.frame.update(position, state.positions_sole[side], turn)
+        loads = state.loads
+        side: Side = "left" if loads["left"] >= loads["right"] else "right"
+        if loads[side] > self._settings.estimator.minimum_load:
+            position, yaw = self.motion.footholds[side]
+            self.frame.follow(position, yaw, state.positions_sole[side], state.rotations_sole[side])
 
     def swing(self, sensed: Sensed, state: BaseState, feedback: bool) -> FeetView:
         """Advance the swing foot. `feedback`: whether balance is fed back."""

@@ -7,6 +7,7 @@ from ..base cimport vectors
 cdef class CommandFrame:
     cdef double anchor_x, anchor_y, anchor_z, share
     cdef readonly double x, y, z, turn
+    cpdef follow(self, commanded, double yaw, real, rotation)
     cpdef update(self, commanded, real, double turn)
     @cython.locals(frame=CommandFrame)
     cpdef CommandFrame now(self)

@@ -30,6 +30,17 @@ class CommandFrame:
         self.turn = 0.0
         self.share = min(1.0, period / time_constant)
 
+    def follow(
+        self,
+        commanded: NDArray[np.float64],
+        yaw: float,
+        real: NDArray[np.float64],
+        rotation: NDArray[np.float64],
+    ) -> None:
+        """`update` by the carrying sole's commanded heading in rad and its estimated rotation (3, 3) to the world."""
+        r = memory.values(rotation)
+        self.update(commanded, real, math.remainder(math.atan2(r[3], r[0]) - yaw, 2.0 * math.pi))
+
     def update(self, commanded: NDArray[np.float64], real: NDArray[np.float64], turn: float) -> None:
         """Follow the carrying foot for a tick: `commanded` and `real`, estimated in the world, (3,) in m, and its
         heading less the commanded one, `turn` in rad.

@@ -43,6 +43,29 @@ class TickRing:
                 row[into + k] = values[k]
             into += size
 
+    def add_tick(self, time, sensors, command, left, right):
+        """Keep a tick by a controller's `sensors` and `command`: stiffness, kind and step of the phase; encoders, gyro,
+        accelerometer, forces of the `left` and `right` sole, and targets of the CoM and both soles.
+        """
+        phase = command.phase
+        feet = command.feet
+        self.add(
+            time,
+            command.stiffness,
+            phase.kind,
+            phase.step,
+            (
+                sensors.joint_positions,
+                sensors.gyro,
+                sensors.accelerometer,
+                left,
+                right,
+                command.com,
+                feet["left"].position,
+                feet["right"].position,
+            ),
+        )
+
     def kept(self):
         """Copies of the kept rows (k, 4 + all sizes), oldest first."""
         if self.count <= self.most:

@@ -74,3 +74,19 @@ def test_a_point_is_turned_about_the_com_to_the_command_frames_heading():
     s = np.sin(frame.turn)
     wanted = com + np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ away
     assert frame.aligned(point, com) == pytest.approx(wanted, abs=1e-12)
+
+
+def test_following_a_sole_turns_by_its_heading_less_the_commanded_one():
+    rng = np.random.default_rng(1)
+    real, commanded = rng.normal(size=(2, 3))
+    forms = (command_frame, python_form("command_frame"))
+    for yaw, heading in ((0.3, 0.5), (3.1, -3.1)):
+        rotation = np.array(
+            [[np.cos(heading), -np.sin(heading), 0.0], [np.sin(heading), np.cos(heading), 0.0], [0.0, 0.0, 1.0]]
+        )
+        for form in forms:
+            one, other = (form.CommandFrame(commanded, 0.005, 0.3) for _ in range(2))
+            one.follow(commanded, yaw, real, rotation)
+            other.update(commanded, real, np.remainder(heading - yaw + np.pi, 2.0 * np.pi) - np.pi)
+            assert one.turn == pytest.approx(other.turn, abs=1e-15)
+            assert one.offset == other.offset

@@ -1,5 +1,7 @@
 """The ring of the last ticks' numbers, against a list of all; both forms."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -34,3 +36,17 @@ def test_what_is_no_array_of_its_size_is_kept_as_nan(form):
     assert np.array_equal(found[:3], [[1.0, 2.0], [1.0, 2.0], [1.0, 3.0]])
     assert np.isnan(found[3:]).all()
     assert len(found) == 10
+
+
+@FORMS
+def test_a_tick_is_kept_by_what_was_measured_and_commanded(form):
+    rng = np.random.default_rng(2)
+    joints, gyro, accelerometer, left, right, com = (rng.normal(size=n) for n in (4, 3, 3, 5, 6, 3))
+    feet = {side: SimpleNamespace(position=rng.normal(size=3)) for side in ("left", "right")}
+    sensors = SimpleNamespace(joint_positions=joints, gyro=gyro, accelerometer=accelerometer)
+    command = SimpleNamespace(com=com, feet=feet, stiffness=0.5, phase=SimpleNamespace(kind=2, step=7))
+    ring = form.TickRing(3, (4, 3, 3, 5, 6, 3, 3, 3))
+    ring.add_tick(0.25, sensors, command, left, right)
+    places = feet["left"].position, feet["right"].position
+    expected = np.concatenate([[0.25, 0.5, 2, 7], joints, gyro, accelerometer, left, right, com, *places])
+    assert np.array_equal(ring.kept(), expected[None])
