@@ -16,6 +16,7 @@ from plantar.gait.analysis.analyse import analyse, with_layout
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.shoes import ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
 from plantar.shoes.build import build_insole
+from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.checks.check import ShoeCheck, check_plan, check_shoe
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.foot.mesh_file import read_mesh
@@ -213,6 +214,20 @@ def test_what_cannot_be_an_insole_is_refused():
     ):
         with pytest.raises(InputError, match=reason):
             build_insole(PERSON, thickness, parameters=ShoeParameters(**change), layout_only=True)
+
+
+@pytest.mark.parametrize(
+    ("cell", "way"),
+    [
+        ("velostat", r"7\d % of .*: use a smaller pitch, or the skin's"),
+        ("fsr_402", r"12 % of .*: use smaller ones, or a sheet"),
+    ],
+)
+def test_cells_that_miss_too_much_of_the_pressure_are_refused_with_a_way_out(cell, way):
+    foot = foot_from_dimensions("person", length=0.24, width=0.09, corner_radius=0.035)
+    with pytest.raises(FootError, match=rf"cells {cell} cover {way}"):
+        build_insole(foot, 6.0, cell=read_cell(cell), layout_only=True)
+    assert len(build_insole(foot, 6.0, layout_only=True).shoes[0].layout) > 30  # the skin's, which the message names
 
 
 @pytest.mark.parametrize(("length", "width"), [(0.24, 0.09), (0.29, 0.105)])

@@ -107,9 +107,10 @@ def fit_insole(
         fit = replace(fit_taxels(room, cell_area=cell_area), border=parameters.border)
     share = even_share(fit.cells, foot.sole)
     if share < EVEN_SHARE and cell is not None:
+        smaller = "a smaller pitch" if cell.kind == "sheet" else "smaller ones, or a sheet (--cell velostat)"
         raise FootError(
-            f"{foot.name}: cells {cell.label} cover {100.0 * share:.0f} % of the foot's outline; an "
-            f"insole needs {100.0 * EVEN_SHARE:g} %, as it spreads no load over them: use smaller ones, or a sheet"
+            f"{foot.name}: cells {cell.label} cover {100.0 * share:.0f} % of the foot's outline; an insole needs "
+            f"{100.0 * EVEN_SHARE:g} %, as it spreads no load over them: use {smaller}, or the skin's (no --cell)"
         )
     if share < EVEN_SHARE:
         what, way = ("cells with a fine rim", "") if fine else ("whole cells", "a fine rim (--rim fine) or ")
