@@ -63,7 +63,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         stated = mapped_columns(column_map(options.columns), head.names, head.width)
         names = [stated.get(i, "") for i in range(head.width)] if stated else list(head.names)
         first = lines[head.first :]
-        changes = _changed_columns(names, first, head, list(stated))
+        names, changes = _changed_columns(names, first, head, list(stated))
         more = (x.rstrip("\n") for x in stream if x.strip())
         rows: Iterator[str] = (x for x in chain(first, more) if not x.startswith("#"))
         rows = _plain_numbers(rows, first, head.delimiter)
@@ -103,19 +103,19 @@ def _plain_numbers(rows: Iterator[str], first: Sequence[str], delimiter: str | N
 
 def _changed_columns(
     names: list[str], first: Sequence[str], head: TableHead, tried: list[int]
-) -> dict[int, Callable[[str], str]]:
-    """Columns whose cells are no plain numbers: labels, times of day, and feet by name; a clock's name becomes one."""
+) -> tuple[list[str], dict[int, Callable[[str], str]]]:
+    """Columns whose cells are no plain numbers (labels, times of day, feet by name), and names with that of a clock."""
     cells = [line.split(head.delimiter) for line in first]
     changes: dict[int, Callable[[str], str]] = dict.fromkeys(head.labels, _number_or_nan)
     clock = _clock(names, cells, tried or list(range(len(names) or 1)))
     if clock is not None:
         changes[clock] = CountedSeconds()
-        names[clock : clock + 1] = [f"time {side_of(names[clock]) or ''} [s]"] if names else []
+        names = [f"time {side_of(n) or ''} [s]" if i == clock else n for i, n in enumerate(names)]
     for i in range(head.width):
         own = [row[i] for row in cells if i < len(row)]
         if (names and is_side_column(names[i])) or (own and all(map(names_a_foot, own))):
             changes[i] = number_of_side
-    return changes
+    return names, changes
 
 
 def _clock(names: list[str], rows: list[list[str]], tried: list[int]) -> int | None:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.formats.table_text import seconds_of_unit
+from plantar.formats.units import seconds_of_unit
 from plantar.recordings.pressure_recording import possible_rate
 
 _USUAL = 100.0

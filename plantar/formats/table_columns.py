@@ -79,17 +79,18 @@ def recording_of_columns(
     if at is not None and of_side is None:
         _refuse_feet_in_turns(table, at)
     headings = [heading_of(name) for name in names]
-    _refuse_curves(headings, at)
-    if at is None and options.rate_hz is None and stated_rate(facts, []) is None:
+    if at is None:
+        _refuse_curves(headings)
+    stated = options.rate_hz or stated_rate(facts, warnings)
+    if at is None and stated is None:
         _refuse_steps(table, headings)
-    time, rate, notes = _times(table, names, at, facts, options, warnings)
+    time, rate, notes = _times(table, names, None if options.rate_hz else at, stated, warnings)
     if rate < _SLOWEST and options.rate_hz is None:
         raise FormatError(
             f"the rows are {1.0 / rate:.3g} s apart, as steps are and no frames; allowed: a row a frame, "
             f"{_SLOWEST:g} or more a second (--rate overrides)"
         )
-    copies, both = _repeated(table, names, headings, columns, warnings)
-    columns = [i for i in columns if i not in copies]
+    columns, both = _without_copies(table, names, headings, columns, warnings)
     if is_force_table([headings[i] for i in columns]):
         named = {i: headings[i] for i in columns}
         feet, every, kind, raw = feet_of_forces(table, named, rate, options, facts.get("unit"), warnings)
@@ -135,14 +136,14 @@ def _clock(table: NDArray[np.float64], names: list[str]) -> int | None:
     return like if like is not None and (np.diff(table[:, like]) > 0.0).all() else None
 
 
-def _repeated(
+def _without_copies(
     table: NDArray[np.float64],
     names: list[str],
     headings: Sequence[Heading],
-    columns: Sequence[int],
+    columns: list[int],
     warnings: list[str],
-) -> tuple[set[int], dict[Side, list[int]]]:
-    """Load columns that copy an earlier one, and each foot's cells where all names begin again halfway."""
+) -> tuple[list[int], dict[int, Side]]:
+    """Columns without loads that copy an earlier one, and the foot of each cell whose names begin again halfway."""
     keys = {
         i: (h.quantity, h.axis, h.side, h.number, plain(h.unit), "" if h.axis else h.words)
         for i in columns
@@ -159,7 +160,7 @@ def _repeated(
             "the cells' names begin again: the first ones are taken as the left foot's, then the right's, else "
             "all of left and right is exchanged (--columns overrides)"
         )
-        return set(), {"left": one, "right": other}
+        return columns, dict.fromkeys(one, SIDES[0]) | dict.fromkeys(other, SIDES[1])
     copies: set[int] = set()
     firsts: dict[tuple[object, ...], int] = {}
     for i, key in keys.items():
@@ -173,7 +174,7 @@ def _repeated(
             )
         copies.add(i)
         warnings.append(f"column {names[i]!r} is there twice with the same values: it counts once")
-    return copies, {}
+    return [i for i in columns if i not in copies], {}
 
 
 def _map_of_plates(names: Sequence[str], headings: Sequence[Heading]) -> str:
@@ -189,10 +190,9 @@ def _map_of_plates(names: Sequence[str], headings: Sequence[Heading]) -> str:
     return f': --columns "{", ".join(parts)}"' if "Fz" in seen else ""
 
 
-def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
+def _refuse_curves(headings: Sequence[Heading]) -> None:
     alike = Counter(h.words for h in headings if h.number is not None)
-    curves = max(alike.values(), default=0) >= _CURVES
-    if at is None and curves and any(_TRIAL.search(h.words) for h in headings):
+    if max(alike.values(), default=0) >= _CURVES and any(_TRIAL.search(h.words) for h in headings):
         raise FormatError(
             "each row is a curve of a trial, since columns name subjects or trials and the rest is numbered; "
             "allowed: a row a frame, with a column of times or --rate"
@@ -278,15 +278,9 @@ def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64
 
 
 def _times(
-    table: NDArray[np.float64],
-    names: list[str],
-    at: int | None,
-    facts: dict[str, str],
-    options: ReadOptions,
-    warnings: list[str],
+    table: NDArray[np.float64], names: list[str], at: int | None, stated: float | None, warnings: list[str]
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
-    stated = options.rate_hz or stated_rate(facts, warnings)
-    if at is None or options.rate_hz is not None:
+    if at is None:
         rate = or_usual(stated, "the table has no times and states no rate", warnings)
         return np.arange(len(table)) / rate, rate, ()
     time = in_seconds(table[:, at], time_unit(names[at]), stated, warnings)
@@ -314,9 +308,8 @@ def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[i
     parted = {headings[i].side for i in cells}
     # A column of a foot without number or place is its only one, or the total of its cells.
     whole = [i for i in known if i not in cells and (headings[i].side or headings[i].quantity in ("pressure", "force"))]
-    return sorted(
-        [*cells, *(i for i in whole if headings[i].side not in parted and not (cells and headings[i].side is None))]
-    )
+    alone = [i for i in whole if headings[i].side not in parted and (headings[i].side or not cells)]
+    return sorted([*cells, *alone])
 
 
 def _refuse_two_loads(names: Sequence[str], headings: Sequence[Heading], columns: Sequence[int]) -> None:
@@ -335,7 +328,7 @@ def _cells(
     names: list[str],
     headings: Sequence[Heading],
     columns: list[int],
-    both: dict[Side, list[int]],
+    both: dict[int, Side],
     facts: dict[str, str],
     options: ReadOptions,
     propose: Callable[..., str],
@@ -360,12 +353,11 @@ def _cells(
             f"the columns are in different units: {', '.join(sorted(set(found)))}; allowed: those of one, such as "
             f"{propose(among=forces)}"
         )
-    stated = facts.get("unit", facts.get("units")) or (max(set(found), key=found.count) if found else None)
+    stated = facts.get("unit", facts.get("units")) or next((u for u, _ in Counter(found).most_common(1)), None)
     unit = unit_of_values(stated, options, warnings, "the table")
     by_side: dict[Side | None, list[int]] = {}
     for i in chosen:
-        side = next((s for s, own in both.items() if i in own), headings[i].side)
-        by_side.setdefault(side, []).append(i)
+        by_side.setdefault(both.get(i, headings[i].side), []).append(i)
     nameless = by_side.get(None, [])
     if len(by_side) > 1 and nameless:
         _report_left_out([names[i] for i in nameless], warnings, "named foot's cell")

@@ -10,7 +10,7 @@ from itertools import pairwise
 from plantar.formats.field_names import heading_of
 from plantar.formats.side import number_of_side, side_of
 from plantar.formats.text import MISSING, cells_of_row, number, ungrouped
-from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, RAW, plain
+from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, RAW, SECONDS, plain, seconds_of_unit
 
 _ROWS = 10  # Rows of numbers in a row from which a table begins, where there are so many
 _ALIKE = 3  # Rows from which a text that stands in all of them is a label
@@ -47,30 +47,25 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
         labels = _labels(rows, delimiter)
         if labels:
             rows = list(with_columns(iter(rows), delimiter, dict.fromkeys(labels, lambda _: "nan")))
-        width = _width(rows, delimiter, len(cells_of_row(lines[first - 1], delimiter)) if first else 0)
-        if width == 1 and first and _numbers(rows[0], "\t"):
-            alone = _name_alone(lines[:first])
-            if alone is not None:
-                return TableHead([alone], "\t", 1, first, _facts(lines[: first - 1], None))
-        named = _wider_names(lines[first - 1], rows, width) if first else None
-        if named is not None:
-            return TableHead(named[0], named[1], len(named[0]), first, _facts(lines[: first - 1], named[1]))
+        above = lines[:first]
+        width = _width(rows, delimiter, len(cells_of_row(above[-1], delimiter)) if above else 0)
+        odd = (_name_alone(above, rows, width) or _wider_names(above[-1], rows, width)) if above else None
+        if odd is not None:
+            names, delimiter = odd
+            return TableHead(names, delimiter, len(names), first, _facts(above[:-1], delimiter))
         good = [_is_row(x, delimiter, width) for x in rows]
-        after_names = first > 0 and _names_columns(names_of_row(lines[first - 1], delimiter), width)
-        if (
-            width < 2
-            or _are_numbered(names_of_row(lines[first], delimiter))
-            or not (good[0] or (after_names and _numbers(rows[0], delimiter)))
-            or sum(good) < 0.8 * len(good)
-        ):
+        if width < 2 or sum(good) < 0.8 * len(good) or _are_numbered(names_of_row(lines[first], delimiter)):
+            continue
+        named = bool(above) and _names_columns(names_of_row(above[-1], delimiter), width)
+        if not (good[0] or (named and _numbers(rows[0], delimiter))):
             continue
         numbers, *below = ([c.strip() for c in x.split(delimiter)] for x in rows[:2])
         if first == 0 and below and all(map(str.isdecimal, numbers)):
             ascending = list(map(int, numbers)) == list(range(1, width + 1))
             if ascending or not all(map(str.isdecimal, below[0])):
                 return TableHead(numbers, delimiter, width, 1, {})
-        names, above = _names(lines[:first], delimiter, width)
-        return TableHead(names, delimiter, width, first, _facts(lines[:above], delimiter), labels)
+        names, at = _names(above, delimiter, width)
+        return TableHead(names, delimiter, width, first, _facts(above[:at], delimiter), labels)
     data = [line for line in lines if not line.startswith("#")]
     if len(data) >= _ROWS and all(number(line) is not None for line in data):
         return TableHead([], "\t", 1, 0, {})
@@ -82,11 +77,13 @@ def _labels(rows: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
     return tuple(i for i, c in enumerate(columns) if len(c) >= _ALIKE and len(set(c)) == 1 and not _is_cell(c[0]))
 
 
-def _name_alone(above: Sequence[str]) -> str | None:
+def _name_alone(above: Sequence[str], rows: Sequence[str], width: int) -> tuple[list[str], str | None] | None:
+    """Name of the one column of forces, and a delimiter that is not in it."""
+    if width != 1 or not _numbers(rows[0], "\t"):
+        return None
     texts = [x.strip('"# ') for x in above[-2:]]
-    if len(texts) == 2 and plain(texts[1]) in _UNITS:
-        texts = [f"{texts[0]} [{texts[1]}]"]
-    return texts[-1][:_LONGEST_NAME] if heading_of(texts[-1]).quantity == "force" else None
+    name = f"{texts[0]} [{texts[1]}]" if len(texts) == 2 and plain(texts[1]) in _UNITS else texts[-1]
+    return ([name[:_LONGEST_NAME]], "\t") if heading_of(name).quantity == "force" else None
 
 
 def _delimiter(lines: Sequence[str]) -> str | None:
@@ -128,6 +125,7 @@ def _is_number(text: str) -> bool:
 
 
 def _wider_names(above: str, rows: Sequence[str], width: int) -> tuple[list[str], str | None] | None:
+    """Names of more columns than the first rows fill, and the delimiter between them."""
     delimiter = _delimiter([above])
     names = [c[:_LONGEST_NAME] for c in names_of_row(above.lstrip("#"), delimiter)]
     wide = delimiter is not None and len(names) > max(3, 2 * width)
@@ -215,15 +213,11 @@ _QUOTED = re.compile(r'"([^"]*)"')
 _CLOCK = re.compile(
     r"(?:\d[\d./-]+\d[ T]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+|:\d{3})?)(?: ?([AaPp])\.?[Mm]\.?)?"
 )
-_SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "ms": 1e-3, "msec": 1e-3, "millisec": 1e-3, "millisecond": 1e-3}
-_SECONDS |= {"millis": 1e-3, "micros": 1e-6}
-_SECONDS |= {"us": 1e-6, "usec": 1e-6, "microsec": 1e-6, "microsecond": 1e-6, "ns": 1e-9, "nsec": 1e-9}
-_SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
 _BY = "abs|absolute|elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
 _SIDE = "(?:l|r|left|right)"
 _TIMES = f"ts|t|times?|times?[ _-]{_SIDE}|(?-i:t)[ _-]{_SIDE}|{_SIDE}[ _-]times?"  # a foot's own clock
 _TIMES += "|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd|czas|x_value|時間|時刻"
-_UNIT = "|".join(rf"{name}s?" for name in _SECONDS)
+_UNIT = "|".join(rf"{name}s?" for name in SECONDS)
 # Units that are a column's name by themselves; "min" may be the least of something.
 _ALONE = "(?:sec|second|ms|us|msec|millisec|millisecond|millis|micros)s?"
 _NAMED = re.compile(
@@ -262,11 +256,6 @@ def time_unit(name: str) -> float | None:
 def time_columns(names: Sequence[str]) -> list[int]:
     """Which of some columns are called times."""
     return [i for i, name in enumerate(names) if time_unit(name) is not None]
-
-
-def seconds_of_unit(unit: str) -> float:
-    """Seconds of a lower-case unit of time; 0 of none."""
-    return _SECONDS.get(unit, _SECONDS.get(unit[:-1], 0.0))
 
 
 def without_quotes(line: str) -> str:

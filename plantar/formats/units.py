@@ -1,4 +1,4 @@
-"""Units that recordings state: pressure, force, length, and unconverted raw counts."""
+"""Units that recordings state: pressure, force, length, time, and unconverted raw counts."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -48,6 +48,16 @@ LENGTHS = _each(
 )
 """Length units by their plain lower-case name, in m."""
 
+SECONDS = _each(
+    ("s sec second", 1.0),
+    ("ms msec millisec millisecond millis", 1e-3),
+    ("us usec microsec microsecond micros", 1e-6),
+    ("ns nsec", 1e-9),
+    ("min minute", 60.0),
+    ("h hour", 3600.0),
+)
+"""Time units by their lower-case name in the singular, in s."""
+
 _NAMES = ("n", "nt", "newton", "newtons")
 MOMENTS: Mapping[str, float] = {
     f"{force}{sign}{name}": factor for name, factor in LENGTHS.items() for force in _NAMES for sign in ("", ".", "-")
@@ -74,6 +84,11 @@ def plain(text: str) -> str:
     """Unit name in lower case, without brackets, blanks and raised digits."""
     out = text.strip().strip("[](){}'\"").replace("²", "2").replace("\ufffd", "2").replace("^", "").replace("*", "")
     return out.replace(" ", "").lower()
+
+
+def seconds_of_unit(unit: str) -> float:
+    """Seconds of a lower-case unit of time; 0 of none."""
+    return SECONDS.get(unit, SECONDS.get(unit[:-1], 0.0))
 
 
 def find_unit(text: str) -> Unit | None:
