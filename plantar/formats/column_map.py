@@ -53,7 +53,7 @@ def column_map(text: str | Mapping[str, str | int] | None) -> dict[str, str]:
 
 
 def mapped_columns(wanted: Mapping[str, str], names: Sequence[str], width: int) -> dict[int, str]:
-    """Returns the new name of each column of a map, by its number from 0; InputError for a column that is not there.
+    """Returns the new name of each column of a map, by its number from 0 in order; InputError for one not there.
 
     Args:
         wanted: Of `column_map`.
@@ -77,24 +77,26 @@ def mapped_columns(wanted: Mapping[str, str], names: Sequence[str], width: int) 
             raise InputError(
                 f"--columns gives {key!r} {len(columns)} columns; allowed: one, or several of left or right"
             )
-    return out
+    return dict(sorted(out.items()))
 
 
 def _columns(part: str, names: Sequence[str], width: int) -> list[int]:
-    if part not in names and ".." in part:
-        first, _, last = part.partition("..")
-        (a,), (b,) = (_columns(end.strip(), names, width) for end in (first, last))
-        return list(range(a, b + 1))
-    found = [i for i, name in enumerate(names) if name == part]
-    found = found or [i for i, name in enumerate(names) if name.lower() == part.lower()]
+    ends = [part] if part in names else part.split("..", 1)
+    ends_at = [_column(end.strip(), names, width) for end in ends]
+    return list(range(ends_at[0], ends_at[-1] + 1))
+
+
+def _column(name: str, names: Sequence[str], width: int) -> int:
+    found = [i for i, n in enumerate(names) if n == name]
+    found = found or [i for i, n in enumerate(names) if n.lower() == name.lower()]
     if len(found) > 1:
-        raise InputError(f"--columns: {len(found)} columns are called {part!r}; allowed: their numbers, from 1 on")
-    if not found and part.isdecimal() and 1 <= int(part) <= width:
-        return [int(part) - 1]
-    if not found:
-        shown = ", ".join(map(repr, names[:8])) or f"1 to {width}"
-        raise InputError(f"--columns names {part!r}, which is no column; the table's are {shown}")
-    return found
+        raise InputError(f"--columns: {len(found)} columns are called {name!r}; allowed: their numbers, from 1 on")
+    if found:
+        return found[0]
+    if name.isdecimal() and 1 <= int(name) <= width:
+        return int(name) - 1
+    shown = ", ".join(map(repr, names[:8])) or f"1 to {width}"
+    raise InputError(f"--columns names {name!r}, which is no column; the table's are {shown}")
 
 
 def _shown(i: int, names: Sequence[str]) -> str:

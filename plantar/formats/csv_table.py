@@ -69,8 +69,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         rows = _plain_numbers(rows, first, head.delimiter)
         if changes:
             rows = with_columns(rows, head.delimiter, changes)
-        table = table_of_lines(path, rows, head.delimiter, head.width, warnings, sorted(stated))
-    names = [names[i] for i in sorted(stated)] if stated else names
+        table = table_of_lines(path, rows, head.delimiter, head.width, warnings, list(stated))
+    names = [names[i] for i in stated] if stated else names
     return recording_of_columns(table, names, options, path, dict(head.facts), warnings)
 
 

@@ -37,8 +37,8 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
         table, names = _columns(given)
         stated = mapped_columns(column_map(known.columns), names, len(names))
         if stated:
-            table = table[:, sorted(stated)]
-            names = [stated[i] for i in sorted(stated)]
+            table = table[:, list(stated)]
+            names = list(stated.values())
         found = recording_of_columns(table, names, known, Path("data frame"))
     elif isinstance(given, Mapping):
         held = {str(k): _array(v) for k, v in given.items()}

@@ -67,11 +67,8 @@ def people_of_steps(path: Path) -> Mapping[str, str]:
 
     What is wrong with a table is reported where its footsteps are read.
     """
-    table = path.parent / NAME
-    if not is_file(table):
-        return {}
     try:
-        return _who(read_text_table(table, FormatError))
+        return _who(read_text_table(path.parent / NAME, FormatError))
     except FormatError:
         return {}
 

@@ -125,7 +125,7 @@ def _laid_out(table: NDArray[np.float64], options: ReadOptions, warnings: list[s
         f"the columns have no names: taken as the layout's {cells} cells in its order (--columns overrides)"
     )
     numbers = [str(i + 1) for _ in range(width // cells) for i in range(cells)]
-    return ["time"] * (width % cells == 1) + numbers if cells > 1 else numbers
+    return ["time"] * (width % cells) + numbers
 
 
 def _clock(table: NDArray[np.float64], names: list[str]) -> int | None:
