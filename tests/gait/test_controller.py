@@ -37,9 +37,8 @@ def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(controller, yaw, as
     assert torso @ torso.T == pytest.approx(np.eye(3), abs=1e-12)
     assert np.linalg.det(torso) == pytest.approx(1.0)
     assert torso[:, 0] == pytest.approx(level_rotation(yaw)[:, 0], abs=1e-12)  # along the feet
-    settings = controller.settings
-    angle = (settings.trunk_lean + 2.0) * min(abs(aside), settings.lean_reach)
-    assert torso[:, 2] @ left == pytest.approx(math.copysign(math.sin(angle), aside), abs=1e-9)
+    reach = min(abs(aside), controller.settings.lean_reach)
+    assert torso[:, 2] @ left == pytest.approx(math.copysign(math.sin(2.0 * reach), aside), abs=1e-9)
     upright = controller.body_targets.posture(com - aside * left, yaw, 2.0)
     assert upright[:, 2] == pytest.approx([0.0, 0.0, 1.0], abs=1e-12)
 
@@ -167,3 +166,17 @@ def test_steps_that_come_one_by_one_are_no_other_plan(one_by_one):
     command = run.controller.step(msgspec.structs.replace(sensors, time=sensors.time + run.settings.period))
     assert command.moved_steps
     assert run.controller.replans == (not one_by_one)
+
+
+def test_on_a_leg_that_is_held_the_torso_leans_by_what_its_hips_need_and_by_its_own(controller):
+    targets = controller.body_targets
+    own = controller.settings.trunk_lean
+    beat = controller.settings.body.beat
+    ticks = round(2.0 * beat / controller.settings.period)
+    controller.footing.guard = SimpleNamespace(holds=True)
+    leans = [targets._lean(0.5) for _ in range(ticks)]
+    assert leans[0] == pytest.approx(max(own, 0.5), abs=1e-2)
+    assert leans[-1] == pytest.approx(own + 0.5)
+    assert np.all(np.diff(leans) >= 0.0)
+    controller.footing.guard = SimpleNamespace(holds=False)
+    assert [targets._lean(0.5) for _ in range(ticks)][-1] == pytest.approx(max(own, 0.5))

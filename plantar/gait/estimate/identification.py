@@ -13,8 +13,9 @@ class IdentificationRules(Part, table="identification", needs={"control.identify
         gyro: Whether gyro bias is, by carrying feet.
         encoders: Whether encoder zeros are, in the opening stand.
         com: Whether the CoM offset is, by the opening stand's ZMP.
-        lean: Torso roll in rad per metre between CoM and feet's middle, besides the walk's, for each tenth that mass
-            and CoM load the hips more than in the model, up to two tenths; 0 for none.
+        lean: Torso roll in rad per metre between CoM and feet's middle, for each tenth that mass and CoM load the hips
+            more than in the model, up to two tenths; 0 uses the walk's lean. While one leg carries for longer than a
+            step, both.
     """
 
     gyro: bool = switch(True)

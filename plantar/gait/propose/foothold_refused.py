@@ -95,6 +95,11 @@ class StepGuard:
         """Whether a foot presses on something unexpected."""
         return self._state is _State.PROBING
 
+    @property
+    def holds(self) -> bool:
+        """Whether a leg carries alone for longer than a step, by what the other foot met."""
+        return self._tries > 0 or self._state in (_State.DOUBTING, _State.PROBING)
+
     def propose(self, tick: Tick) -> PlanChange | None:
         """A longer single support for a doubted foothold, another place for a refused one.
 

@@ -15,6 +15,9 @@ from plantar.kernels.gait.leaning_torso import leaning_torso
 from plantar.mechanics.base_state import BaseState
 
 _ROUND = 0.2  # of the way aside over which the lean ends
+# beats in which the torso comes to lean as far as a leg needs that carries for longer than a step; with 2 a hip that is
+# at its limit then stays there
+_LEANS = 1.0
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
 
 
@@ -25,6 +28,8 @@ class BodyTargets:
         self._settings = settings
         self._footing = footing
         ground = float(np.mean([footing.motion.footholds[side][0].item(2) for side in SIDES]))
+        self._leans = 0.0
+        self._period = settings.period
         self._ground = CoMHeight(ground, settings.period, _FOLLOWS_GROUND / settings.body.beat)
 
     def at(
@@ -32,14 +37,25 @@ class BodyTargets:
     ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
         """Returns CoM (3,) in m, heading in rad and torso rotation (3, 3).
 
-        `com` (2,), world frame, in m; `lean`: what it needs besides its own in rad/m.
+        `com` (2,), world frame, in m; `lean`: what its hips need in rad/m.
         """
         left = self._footing.motion.footholds["left"][1]
         right = self._footing.motion.footholds["right"][1]
         x, y = self._footing.frame.to_command(com).tolist()
         target = vector(x, y, self._com_height(phase, state))
         torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
-        return target, torso, self.posture(target, torso, lean)
+        return target, torso, self.posture(target, torso, self._lean(lean))
+
+    def _lean(self, lean: float) -> float:
+        """Lean in rad/m: the larger of what the hips need and the walk's own, both while a leg is held."""
+        own = self._settings.trunk_lean
+        guard = self._footing.guard
+        change = self._period / (_LEANS * self._settings.body.beat)
+        if guard is None or not guard.holds:
+            change = -change
+        self._leans = min(1.0, max(0.0, self._leans + change))
+        share = self._leans * self._leans * (3.0 - 2.0 * self._leans)
+        return max(own, lean) + share * min(own, lean)
 
     def posture(self, com: NDArray[np.float64], torso: float, lean: float = 0.0) -> NDArray[np.float64]:
         """Returns the torso's rotation (3, 3): along the feet, leaning over the foot that `com` (3,) in m nears.
@@ -48,7 +64,7 @@ class BodyTargets:
         """
         settings = self._settings
         footholds = self._footing.motion.footholds
-        lean += settings.trunk_lean
+        lean = max(settings.trunk_lean, lean)
         left = footholds["left"][0]
         right = footholds["right"][0]
         turn: NDArray[np.float64] = leaning_torso(com, left, right, torso, settings.lean_reach, lean, _ROUND)
