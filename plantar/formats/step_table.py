@@ -162,13 +162,11 @@ def masses_of_people(path: Path) -> dict[str, float]:
 
 def _masses(path: Path) -> dict[str, float]:
     table = read_text_table(path, FormatError)
-    who = table.column("participantid")
-    mass = table.column("weight (kg)")
-    if who is None or mass is None:
-        return {}
     out = {}
     for _, row in table.rows:
-        found = number(row[mass]) if mass < len(row) else None
-        if found is not None and found > 0.0 and row[who].strip().isdigit():
-            out[f"{int(row[who]):03}"] = found
+        cells = dict(zip(table.names, row, strict=False))
+        person = cells.get("participantid", "").strip()
+        mass = number(cells.get("weight (kg)", ""))
+        if mass is not None and mass > 0.0 and person.isdecimal():
+            out[f"{int(person):03}"] = mass
     return out

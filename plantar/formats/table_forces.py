@@ -75,12 +75,12 @@ def feet_of_forces(
     units = dict.fromkeys(h.unit for h in forces if h.unit)
     if len(set(map(plain, units))) > 1 and not options.unit:
         raise FormatError(f"the forces are in different units: {', '.join(units)}; allowed: one unit, or --unit")
-    unit, relative = _unit(
-        table, columns, [loaded[k]["force"][a] for k, a in verticals.items()], options, stated, warnings
-    )
-    made = [_plate(table, columns, key, loaded[key], a, unit, warnings) for key, a in verticals.items()]
-    if not made:
+    if not verticals:
         raise FormatError("no column is a vertical force; allowed: Fz, a vertical GRF, or forces of all three axes")
+    upward = [loaded[key]["force"][axis] for key, axis in verticals.items()]
+    text = options.unit or next((columns[i].unit for i in upward if columns[i].unit), stated) or ""
+    unit, relative = _unit(text, table[:, upward], options, warnings)
+    made = [_plate(table, columns, key, loaded[key], a, unit, warnings) for key, a in verticals.items()]
     scale = 100.0 / _NOMINAL if relative else 1.0
     sides = [p.side for p in made if p.side]
     named = len(sides) == len(made)
@@ -151,17 +151,9 @@ def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[s
     return up
 
 
-def _unit(
-    table: NDArray[np.float64],
-    columns: Mapping[int, Heading],
-    verticals: Sequence[int],
-    options: ReadOptions,
-    stated: str | None,
-    warnings: list[str],
-) -> tuple[float, bool]:
-    """N in one force unit, and whether relative to an unknown body weight."""
-    text = options.unit or next((columns[i].unit for i in verticals if columns[i].unit), "") or stated or ""
-    largest = float(np.nanpercentile(np.abs(table[:, list(verticals)]), 99.5)) if verticals and len(table) else 0.0
+def _unit(text: str, vertical: NDArray[np.float64], options: ReadOptions, warnings: list[str]) -> tuple[float, bool]:
+    """N in one unit of a text, or of the size of vertical forces, and whether relative to an unknown body weight."""
+    largest = float(np.nanpercentile(np.abs(vertical), 99.5))
     if not text and _WEIGHTS[0] <= largest <= _WEIGHTS[1]:
         text = "BW"
         warnings.append(

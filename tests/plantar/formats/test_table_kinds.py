@@ -268,6 +268,10 @@ def test_sensors_by_place_and_times_in_milliseconds(tmp_path):
             + "".join(f"\n23:59:55:{i:02d}" + 12 * ",7" for i in range(30)),
             "no times that increase",
         ),
+        (
+            "time,left GRF AP,right GRF AP\n" + rows([TIME, AHEAD["left"], AHEAD["right"]], ","),
+            "no column is a vertical force",
+        ),
         ("time,Left Fz,Right Fz\ns,mV,mV\n" + rows([TIME, LEFT, RIGHT], ","), "unknown unit of force 'mV'"),
         ("Czas (s),F lewa (N),F prawa (N)\n" + rows([TIME, LEFT, RIGHT], ","), "no column of the table is a load"),
         (rows([AHEAD["left"], LEFT, 90.0 * AHEAD["left"], NONE], ","), "the columns have no names"),
