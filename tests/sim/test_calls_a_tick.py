@@ -60,13 +60,13 @@ def _forget_polygon(memory):
 _CLOUD = np.random.default_rng(0).normal(size=(20, 2))
 _LOG = logging.getLogger("plantar.test")
 SLOWINGS = {
-    "a polygon": (FootContacts, "find", lambda _: convex_hull(_CLOUD)),
+    "a polygon": (FootContacts, "coming_to_carry", lambda _: convex_hull(_CLOUD)),
     "a copy": (FloatingBaseEstimator, "update", lambda _: _CLOUD.copy()),
     "a line of a log": (WalkingController, "_tick", lambda _: _LOG.debug("a tick")),
     "a lost cache of rotations": (FootMotion, "rotation", _forget_rotations),
     "a lost cache of the ZMP's region": (FootContacts, "zmp_region", _forget_region),
     "a lost cache of contacts": (ContactMemory, "encloses", _forget_polygon),
-    "kinematics computed twice": (LegModel, "follow", lambda legs: legs.live_posture(legs.joints)),
+    "kinematics computed twice": (LegModel, "follow_soles", lambda legs: legs.live_posture(legs.joints)),
     "a plan looked at once more": (Footing, "perceive", lambda footing: footing._plan.at(2.0)),
     "a convenience of numpy": (LegModel, "carry_soles", lambda _: np.repeat([0.5, 0.5], 6)),
     "a dictionary by a comprehension": (WalkPlan, "at", lambda _: {side: len(side) for side in SIDES}),
