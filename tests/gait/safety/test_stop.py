@@ -81,7 +81,8 @@ def test_the_log_holds_two_seconds_before_each_fault(walk, tmp_path):
     walked(walk, 0.0, 2.5)
     walked(walk, 2.5, 2.6, change=lambda s: s.changed(time=s.time + late))
     walked(walk, 2.6, 2.9, change=lambda s: s.changed(time=s.time + late, gyro=np.full(3, np.nan)))
-    assert [fault.text[:18] for fault in shell.log.faults] == ["a tick came 0.20 s", "blind"]
+    words = [fault.text[:18] for fault in shell.log.faults]
+    assert words == ["a tick came 0.20 s", "encoders or IMU wi", "blind"]
     assert shell.log.faults[0].time == pytest.approx(2.5, abs=0.02)
     path = tmp_path / "faults.mcap"
     shell.log.write(path)
@@ -107,7 +108,9 @@ def test_an_encoder_that_does_not_follow_is_replaced_by_its_target(walk):
     walked(walk, 3.0, 6.0, change=off)
     assert walk.controller.safe_state is None
     assert upright(walk) > 0.95
-    assert shell.log.faults[0].text == "joints that do not follow their targets, counted from 0: 3"
+    words = [fault.text for fault in shell.log.faults]
+    assert words[0] == "a joint angle that no robot has"  # bridged until it is confirmed
+    assert "joints that do not follow their targets, counted from 0: 3" in words
 
 
 def test_targets_that_never_move_are_not_compared():
