@@ -173,10 +173,8 @@ def test_on_a_leg_that_is_held_the_torso_leans_by_what_its_hips_need_and_by_its_
     own = controller.settings.trunk_lean
     beat = controller.settings.body.beat
     ticks = round(2.0 * beat / controller.settings.period)
-    controller.footing.guard = SimpleNamespace(holds=True)
-    leans = [targets._lean(0.5) for _ in range(ticks)]
+    leans = [targets._lean(0.5, holds=True) for _ in range(ticks)]
     assert leans[0] == pytest.approx(max(own, 0.5), abs=1e-2)
     assert leans[-1] == pytest.approx(own + 0.5)
     assert np.all(np.diff(leans) >= 0.0)
-    controller.footing.guard = SimpleNamespace(holds=False)
-    assert [targets._lean(0.5) for _ in range(ticks)][-1] == pytest.approx(max(own, 0.5))
+    assert [targets._lean(0.5, holds=False) for _ in range(ticks)][-1] == pytest.approx(max(own, 0.5))

@@ -28,6 +28,9 @@ class BodyTargets:
         self._settings = settings
         self._footing = footing
         ground = float(np.mean([footing.motion.footholds[side][0].item(2) for side in SIDES]))
+        legs = settings.standing_legs
+        self._legs = legs if len(legs) == len(SIDES) else {}
+        self._hips = {side: np.array(leg.hip) for side, leg in self._legs.items()}
         self._leans = 0.0
         self._period = settings.period
         self._ground = CoMHeight(ground, settings.period, _FOLLOWS_GROUND / settings.body.beat)
@@ -44,14 +47,17 @@ class BodyTargets:
         x, y = self._footing.frame.to_command(com).tolist()
         target = vector(x, y, self._com_height(phase, state))
         torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
-        return target, torso, self.posture(target, torso, self._lean(lean))
+        guard = self._footing.guard
+        holds = guard is not None and guard.holds
+        if holds or self._leans > 0.0:
+            lean = self._lean(lean, holds)
+        return target, torso, self.posture(target, torso, lean)
 
-    def _lean(self, lean: float) -> float:
+    def _lean(self, lean: float, holds: bool) -> float:
         """Lean in rad/m: the larger of what the hips need and the walk's own, both while a leg is held."""
         own = self._settings.trunk_lean
-        guard = self._footing.guard
         change = self._period / (_LEANS * self._settings.body.beat)
-        if guard is None or not guard.holds:
+        if not holds:
             change = -change
         self._leans = min(1.0, max(0.0, self._leans + change))
         share = self._leans * self._leans * (3.0 - 2.0 * self._leans)
@@ -83,7 +89,7 @@ class BodyTargets:
             # A leg that steps down has to reach the ground: the body comes down before its foot.
             target = stands - min(max(0.0, stands - motion.comes_to), self._settings.spare_crouch)
             target += footing.contacts.rise
-            if motion.comes_down:
+            if self._legs and motion.comes_down:
                 target = self._within_reach(target, stands, stance, state)
         return self._ground.update(target) + self._settings.com_height
 
@@ -95,20 +101,17 @@ class BodyTargets:
         """
         footing = self._footing
         motion = footing.motion
-        legs = self._settings.standing_legs
         swing = other_side(stance)
-        if stance not in legs or swing not in legs:
-            return target
-        leg = legs[swing]
-        hip = state.position_base + state.rotation_base_to_world.dot(leg.hip)
+        leg = self._legs[swing]
+        hip = state.position_base + state.rotation_base_to_world.dot(self._hips[swing])
         x, y = footing.frame.to_command(hip[:2]).tolist()
         end_x, end_y, yaw = motion.end
         away = math.hypot(end_x + leg.ankle * math.cos(yaw) - x, end_y + leg.ankle * math.sin(yaw) - y)
         # The hip stays as far below the CoM as it is.
-        above = float(state.com[2] - hip[2]) - self._settings.com_height
-        reaches = motion.comes_to + leg.tallest(away) + above
+        above = state.com.item(2) - hip.item(2) - self._settings.com_height
+        reaches: float = motion.comes_to + leg.tallest(away) + above
         if reaches >= target:
             return target
         contacts = footing.contacts
-        bears = stands + legs[stance].lowest_for(contacts.center(stance).item(0), 1.0 / contacts.mass_ratio)
+        bears = stands + self._legs[stance].lowest_for(contacts.center(stance).item(0), 1.0 / contacts.mass_ratio)
         return min(target, max(reaches, bears))
