@@ -1,8 +1,8 @@
 """Outcomes of scenes over seeds: a row a run, appended as it ends, never changed.
 
-A case is counted on two plants: one drawn within what a carefully built robot has (`plant=random`, `level=1`), and the
-controller's exact model. Seeds are drawn from the commit, so that no version of the code has met them before, and the
-first draw is published. A table keeps the rows of the commits that are listed under it.
+A case is counted on two plants: one drawn within what ordinary care leaves (`plant=random`, `level=2`), or half of that
+("drawn", `level=1`), and the controller's exact model. Seeds are drawn from the commit, so that no version of the code
+has met them before, and the first draw is published. A table keeps the rows of the commits that are listed under it.
 """
 
 import csv
@@ -26,8 +26,16 @@ FOLDER = Path(__file__).parent
 FEW = 4
 """So many seeds of each case come first."""
 
-PLANTS: dict[str, tuple[str, ...]] = {"drawn": ("plant=random", "plant.level=1"), "exact": (), "own": ()}
+PLANTS: dict[str, tuple[str, ...]] = {
+    "ordinary": ("plant=random", "plant.level=2"),
+    "drawn": ("plant=random", "plant.level=1"),
+    "exact": (),
+    "own": (),
+}
 """Settings of each plant that a case is counted on; "own" is for cases that are about the plant."""
+
+DRAWN = ("ordinary", "drawn", "own")
+"""Plants that differ from the controller's model."""
 
 HEADS = ("plant drawn", "exact plant")
 """Heads of the cells that `counted` gives."""
@@ -251,7 +259,7 @@ def differences(row: Row, again: dict[str, Any]) -> list[str]:
 def counted(rows: Sequence[Row]) -> list[str]:
     """Completed runs on a drawn plant and on an exact one, with Wilson's interval at 95 % in percent."""
     cells = []
-    for plants in (("drawn", "own"), ("exact",)):
+    for plants in (DRAWN, ("exact",)):
         mine = [r["completed"] == "True" for r in latest(rows) if r["plant"] in plants]
         low, high = wilson_interval(sum(mine), len(mine))
         cells.append(f"{sum(mine)}/{len(mine)} ({100 * low:.0f}-{100 * high:.0f})" if mine else "-")
@@ -261,7 +269,7 @@ def counted(rows: Sequence[Row]) -> list[str]:
 def of_now(rows: Sequence[Row]) -> list[Row]:
     """The rows that a table's other columns sum up: those on drawn plants, or else all."""
     mine = latest(rows)
-    return [r for r in mine if r["plant"] in ("drawn", "own")] or mine
+    return [r for r in mine if r["plant"] in DRAWN] or mine
 
 
 def origin(benchmark: Benchmark) -> str:

@@ -42,7 +42,10 @@ BENCHMARK = Benchmark(
         "impact_max": lambda simulation, out: round(max(out["impacts_N"] or [0.0]) / simulation.body.weight, 3),
         "at_torque_limit": "torque_limit.share_of_time",
     },
-    [Case(scene, scene, robot, (), LONG if scene == "long-walk" else SEEDS) for scene, robot in RUNS],
+    [
+        Case(scene, scene, robot, (), LONG if scene == "long-walk" else SEEDS, plants=("ordinary", "exact"))
+        for scene, robot in RUNS
+    ],
     {
         "falls": fallen,
         "failed": failed,
