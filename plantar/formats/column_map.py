@@ -21,6 +21,7 @@ _ALLOWED = (
 _PLATE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")  # The channels of a force plate, in the order of all makers
 _HEAVY = 100.0  # What a plate's largest force reaches at least, in N: accelerations and turning rates reach less
 _STEPPED = 150.0  # What a plate's force reaches at least, in N, where nothing but its size shows that it is one
+_LONGEST_NUMBER = 20  # digits: Python reads no number of some thousands
 _MOST_FILLED = 300  # Nameless columns, of which more may as well be the frames of a curve
 _FEWEST = 3  # Numbered columns up to which they may be the axes of a marker
 _SIGNED = 0.05  # Share of its largest value that a column reaches below zero, as only a plate's channels do
@@ -83,6 +84,9 @@ def mapped_columns(wanted: Mapping[str, str], names: Sequence[str], width: int) 
 def _columns(part: str, names: Sequence[str], width: int) -> list[int]:
     ends = [part] if part in names else part.split("..", 1)
     ends_at = [_column(end.strip(), names, width) for end in ends]
+    if ends_at[0] > ends_at[-1]:
+        first, last = (_shown(i, names) for i in ends_at)
+        raise InputError(f"--columns: {first} comes after {last}; allowed: a range from left to right, {last}..{first}")
     return list(range(ends_at[0], ends_at[-1] + 1))
 
 
@@ -93,8 +97,9 @@ def _column(name: str, names: Sequence[str], width: int) -> int:
         raise InputError(f"--columns: {len(found)} columns are called {name!r}; allowed: their numbers, from 1 on")
     if found:
         return found[0]
-    if name.isdecimal() and 1 <= int(name) <= width:
-        return int(name) - 1
+    number = int(name) if name.isdecimal() and len(name) < _LONGEST_NUMBER else 0
+    if 1 <= number <= width:
+        return number - 1
     shown = ", ".join(map(repr, names[:8])) or f"1 to {width}"
     raise InputError(f"--columns names {name!r}, which is no column; the table's are {shown}")
 

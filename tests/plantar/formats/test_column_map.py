@@ -84,6 +84,8 @@ def test_names_that_are_not_single_are_taken_by_their_numbers():
         ("left=c", "'c', which is no column; the table's are 'a', 'b'"),
         ("left=3", "'3', which is no column"),
         ("left=a, right=a", "takes column a twice"),
+        ("left=b..a", "b comes after a; allowed: a range from left to right, a..b"),
+        (f"left={'1' * 5000}", "is no column"),
         ("left=a..b..a", "'b..a', which is no column"),
         ("time=a..b", "gives 'time' 2 columns"),
     ],
