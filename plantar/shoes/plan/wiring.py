@@ -18,6 +18,7 @@ _BARB = 0.1  # mm
 _STEP = 0.01  # mm between two corners that are one
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
+_THICKER = 0.6  # of a wall, half of what remains of a post: its corners are cut by an octagon
 _SLACK = 200.0  # mm of each lead beyond the heel's board, to the read-out on the shank
 _SHARP = 0.14  # of a width squared: what its bevel takes of a corner of 87 degrees, so ends at a right angle stay
 
@@ -41,8 +42,22 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
 
 def _without_posts(opening: Any, wall: float) -> Any:
-    """Opening without what stands in it alone and thinner than a wall, which may touch a rib in a point."""
-    kept = [hole for hole in opening.interiors if not shapely.Polygon(hole).buffer(-0.5 * wall).is_empty]
+    """Opening without what stands in it alone and thinner than a wall.
+
+    What touches a rib or another post in a point, where the print would be joined by a line without width, ends a wall
+    before it.
+    """
+    holes = list(opening.interiors)
+    kept = []
+    for hole in holes:
+        post = shapely.Polygon(hole)
+        others = [opening.exterior, *(other for other in holes if other is not hole)]
+        touched = hole.intersection(shapely.union_all(others))
+        if not touched.is_empty:
+            left = post.difference(touched.buffer(wall, quad_segs=2))
+            thick = left.buffer(-_THICKER * wall, quad_segs=2).buffer(_THICKER * wall, quad_segs=2)  # no wedge remains
+            post = shapely.set_precision(thick & left, 1e-4)
+        kept += [q.exterior for q in shapely.get_parts(post) if not q.buffer(-0.5 * wall).is_empty]
     return shapely.Polygon(opening.exterior, kept)
 
 

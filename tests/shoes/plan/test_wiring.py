@@ -9,7 +9,7 @@ from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.foot.foot import foot_from_dimensions
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.geometry.section import wall_thickness
-from plantar.shoes.plan.wiring import pocket_outlines
+from plantar.shoes.plan.wiring import _without_posts, pocket_outlines
 
 from ..foot_family import FAMILY, small_turns, turned
 
@@ -23,6 +23,22 @@ def test_outlines_have_no_edge_of_some_thousandths(length, width, cell):
     for outline in pocket_outlines(build.shoes[0].plan, build.parameters):
         for ring in (outline.exterior, *outline.interiors):
             assert np.hypot(*np.diff(shapely.get_coordinates(ring), axis=0).T).min() > 0.005
+
+
+def test_no_post_hangs_on_a_rib_by_a_line():
+    """Where a hole of an opening touches its edge in a point, the print would have an edge of four faces."""
+    post = [(0.0, 5.0), (6.0, 2.0), (6.0, 8.0)]
+    alone = [(12.0, 2.0), (12.0, 8.0), (16.0, 8.0), (16.0, 2.0)]
+    opening = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [post, alone])
+    assert opening.is_valid
+    found = _without_posts(opening, 1.2)
+    assert found.is_valid
+    nearest, other = sorted(found.interiors, key=lambda ring: ring.bounds)
+    assert nearest.distance(found.exterior) > 0.9
+    assert shapely.Polygon(nearest).area > 0.9 * shapely.Polygon(post).area
+    assert shapely.Polygon(other).equals(shapely.Polygon(alone))
+    short = shapely.Polygon(opening.exterior, [[(0.0, 5.0), (2.0, 4.0), (2.0, 6.0)]])
+    assert not _without_posts(short, 1.2).interiors
 
 
 def test_no_wedge_next_to_a_slanting_channel_is_thinner_than_a_wall():
