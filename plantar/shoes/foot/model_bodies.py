@@ -244,6 +244,7 @@ class ModelBodies:
                 mesh.file = ""
                 mesh.uservert = triangles.ravel()
                 mesh.userface = np.arange(3 * len(triangles), dtype=np.int32)
+        spec.strippath = False  # as it is for a URDF, the folders found here would be left out
 
     def _placed(self, spec: Any) -> tuple[Any, Any]:
         import mujoco

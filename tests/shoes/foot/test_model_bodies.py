@@ -223,3 +223,30 @@ def test_a_model_of_too_many_triangles_is_read_once(tmp_path, monkeypatch):
     with pytest.raises(FootError, match="triangles; allowed: up to 1000"):
         source.shapes("foot", 20)
     assert read == [{"read_all": False}]
+
+
+JOINTED = """<robot name="r"><link name="trunk"/>
+<joint name="knee" type="revolute"><parent link="trunk"/><child link="shank"/><origin xyz="0 0 0.5"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<link name="shank"><visual><geometry><mesh filename="package://r/meshes/shank.stl"/></geometry></visual></link>
+<joint name="ankle" type="revolute"><parent link="shank"/><child link="foot"/><origin xyz="0 0 -0.4"/>
+<axis xyz="0 1 0"/>
+<limit lower="-0.5" upper="0.5" effort="1" velocity="1"/></joint>
+<link name="foot"><visual><geometry><mesh filename="package://r/meshes/foot.stl"/></geometry></visual></link></robot>"""
+
+
+def test_a_urdf_shows_its_links_from_meshes_in_another_folder(tmp_path):
+    folder = tmp_path / "r" / "meshes"
+    folder.mkdir(parents=True)
+    foot = trimesh.creation.box((0.2, 0.09, 0.04))
+    foot.export(folder / "foot.stl")
+    shank = trimesh.creation.box((0.06, 0.06, 0.4))
+    shank.apply_translation([0.0, 0.0, -0.2])
+    shank.export(folder / "shank.stl")
+    (tmp_path / "r" / "urdf").mkdir()
+    file = tmp_path / "r" / "urdf" / "robot.urdf"
+    file.write_text(JOINTED)
+    body = read_foot_body(file, "foot")
+    assert body.links is not None
+    assert body.notes[-1] == "the links above the foot are swept over 2 joint(s), 57, 115 degrees"
+    assert body.links[:, 2].max() > 0.05
