@@ -25,9 +25,6 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     touch_speed: float = fixed(0.000824, "leg/beat")  # Speed at touchdown in m/s
     margin: float = share(1 / 3000, "leg", 0, 0.01)
     top_speed: float = fixed(0.124, "leg/beat")  # Largest speed downwards in m/s
-    # The same while it still flies forward: what it comes over it sees as late as 10 mm below, and its drives follow
-    # 35 ms later
-    flying_speed: float = fixed(0.0824, "leg/beat")
     # The same to ground that is not one plane: which part is met first is seen by few taxels, and changes
     rough_speed: float = fixed(0.0247, "leg/beat")
     acceleration: float = share(0.408, "leg/beat^2", 0.1, 100)

@@ -110,16 +110,14 @@ class SwingCompliance:
         commanded already and not seen yet (`SwingLag`).
         """
         g = self.gains
-        above = remaining < _THERE * self._leg
         if view is None:
             self._aim = None
-            slow = planned if above else min(planned, g.flying_speed)
-            wanted = slow + self._haste * (planned - slow)
-            self._speed = min(wanted, self._speed + g.acceleration * period)
+            self._speed = min(planned, self._speed + g.acceleration * period)
             return self._moved(self._speed, period)
         distance = view.distance - to_come
         if self._aim is None:
             self._aim = distance
+        above = remaining < _THERE * self._leg
         left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
         quick = 1.0 - _SOONER * self._haste
         time_left /= quick
@@ -137,8 +135,6 @@ class SwingCompliance:
             self._aim += self._haste * behind
             behind = distance - self._aim
         most = g.top_speed if view.even else g.rough_speed
-        if not above:
-            most = min(most, g.flying_speed + self._haste * (g.top_speed - g.flying_speed))
         self._speed = min(wanted, most, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
         return self._moved(min(most, max(rise, self._speed + behind / g.correction)), period)
