@@ -182,7 +182,7 @@ def test_left_and_right_are_not_mixed_up(own):
 def test_unstable_physics_is_an_error_that_leaves_no_log(own, tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     # It stands, and the servos' set-points diverge as it walks.
-    monkeypatch.setattr(LegServos, "drive", lambda servos: servos._world.data.ctrl.fill(1e11))
+    monkeypatch.setattr(LegServos, "_choose_drive", lambda servos: lambda: servos._world.data.ctrl.fill(1e11))
     with pytest.raises(SceneError, match="unstable"):
         run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
     assert capfd.readouterr().err == ""

@@ -34,11 +34,9 @@ def draw_harness(shoe: Shoe, parameters: ShoeParameters, wiring: Wiring, board: 
 
 def _drawn(figure: Any, axes: Any, table: Any) -> Any:
     """Box in inches of what is drawn on a figure: of the plan, and of the lines of the table, which has free space."""
-    from matplotlib.transforms import Bbox  # slow: only where something is drawn
-
     figure.draw_without_rendering()
     boxes = [axes.get_tightbbox(), *(line.get_window_extent() for line in table.texts)]
-    return Bbox.union(boxes).transformed(figure.dpi_scale_trans.inverted()).padded(0.1)
+    return boxes[0].union(boxes).transformed(figure.dpi_scale_trans.inverted()).padded(0.1)
 
 
 def _plan(axes: Any, shoe: Shoe, p: ShoeParameters, wiring: Wiring, board: FlexBoard | None) -> None:
