@@ -73,11 +73,15 @@ def write_set(folder: Path, steps: int) -> int:
 def measured(folder: Path, out: Path, jobs: int) -> tuple[float, float, float]:
     """Processor time in s of a study with all its processes, its time by the clock, and the largest memory in MB."""
     code = (
-        "import resource, sys; from plantar.gait.analysis.study.run_study import run_study;"
+        "import re, resource, sys; from pathlib import Path;"
+        "from plantar.gait.analysis.study.run_study import run_study;"
         "from plantar.gait.analysis.study.study_options import StudyOptions;"
         "run_study(sys.argv[1], sys.argv[2], figures=False, plan=StudyOptions(jobs=int(sys.argv[3])));"
-        "print([[u.ru_utime + u.ru_stime, u.ru_maxrss / 1e3] for u in map(resource.getrusage, "
-        "(resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))])"
+        "used = [[u.ru_utime + u.ru_stime, u.ru_maxrss / 1e3] for u in map(resource.getrusage, "
+        "(resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))];"
+        # ru_maxrss of a process includes what the one that started it held.
+        "used[0][1] = int(re.search('VmHWM:.*?([0-9]+)', Path('/proc/self/status').read_text())[1]) / 1e3;"
+        "print(used)"
     )
     begun = time.perf_counter()
     command = [sys.executable, "-c", f"if __name__ == '__main__': {code}", str(folder), str(out), str(jobs)]
