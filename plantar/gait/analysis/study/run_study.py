@@ -42,7 +42,7 @@ from plantar.gait.analysis.study.participants import Participation, not_read, re
 from plantar.gait.analysis.study.patient_page import patient_figures, patient_page
 from plantar.gait.analysis.study.reliability import Agreement, Reliability, agreements, reliabilities
 from plantar.gait.analysis.study.sample_size import people_needed
-from plantar.gait.analysis.study.stored_steps import StoredRows, columns_of, write_parquet, write_steps
+from plantar.gait.analysis.study.stored_steps import TEXTS, StoredRows, columns_of, write_parquet, write_steps
 from plantar.gait.analysis.study.study_options import StudyOptions
 from plantar.gait.analysis.study.study_page import StudyParts, study_figures, study_page
 from plantar.gait.analysis.study.workbook import write_workbook
@@ -388,7 +388,7 @@ def _write(study: Study, target: Path, root: Path, figures: bool) -> list[str]:
         written.append(write_text(target / f"{name}.csv", csv_text(names, mapping_rows(names, rows))))
     columns = study.step_columns()
     if study.plan.parquet:
-        texts = {"side", "note", *_PROVENANCE, *(name for r in study.results for name in _identity(r))}
+        texts = {*TEXTS, *_PROVENANCE, *(name for r in study.results for name in _identity(r))}
         written.append(write_parquet(target / "steps.parquet", columns, study.step_rows(), texts))
     else:
         written.append(write_steps(target / "steps.csv", columns, _step_parts(study)))

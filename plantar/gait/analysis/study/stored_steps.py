@@ -19,7 +19,7 @@ from plantar.common.table_writer import csv_row, mapping_rows, original_cell, wr
 from plantar.errors import InputError
 
 Rows = Sequence[Mapping[str, Any]]
-_TEXTS = ("side", "note")  # cells of a step that are no numbers
+TEXTS = ("side", "note")  # cells of a step that are no numbers
 _GROUP = 20_000  # rows that a Parquet file keeps together
 
 
@@ -57,7 +57,7 @@ class StoredRows(Rows):
             raise InputError(f"{self.path}: the stored steps are gone ({error}); run the study again") from None
 
     def _read(self) -> list[Mapping[str, Any]]:
-        texts = [name in _TEXTS for name in self.names]
+        texts = [name in TEXTS for name in self.names]
         return [
             {
                 name: original_cell(cell) if text else _number(cell)
