@@ -22,7 +22,7 @@ from introduced_robots import introduce
 from resumable import Benchmark, Case, add_row, commit, differences, latest, rows_of, run_row, wanted
 
 TABLES = ("push_steps", "footholds", "stones", "unknown_ground", "introduced_robots")
-TABLES += ("walks", "guide", "balance", "reactive_options", "survival_map", "plant", "grounds", "speed")
+TABLES += ("walks", "guide", "balance", "reactive_options", "survival_map", "plant", "grounds", "speed", "parts")
 
 
 def missing(script: ModuleType) -> Iterator[tuple[int, Case, tuple[str, int]]]:

@@ -50,6 +50,7 @@ class Case(NamedTuple):
         aside: Whether it is for comparison only; its runs come last.
         file: File of a robot that is not built in, or empty.
         plants: Names of the plants that it is counted on.
+        kind: What simulates it, `Simulation` or one made of it, where that is not the plain one.
     """
 
     name: str
@@ -60,6 +61,7 @@ class Case(NamedTuple):
     aside: bool = False
     file: str = ""
     plants: tuple[str, ...] = ("drawn", "exact")
+    kind: Callable[..., Any] | None = None
 
 
 Row = dict[str, str]
@@ -206,7 +208,7 @@ def run_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -
 
     plant, seed = run
     settings = (*case.settings, *PLANTS[plant])
-    simulation = Simulation(load_scene(case.scene, settings, case.file or case.robot), seed)
+    simulation = (case.kind or Simulation)(load_scene(case.scene, settings, case.file or case.robot), seed)
     with TemporaryDirectory() as folder:
         recording = Path(folder, "run.mcap") if benchmark.recorded else None
         summary = simulation.run(record=recording)
