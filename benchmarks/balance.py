@@ -36,7 +36,7 @@ BENCHMARK = Benchmark(
         "tilt_max_deg": "tilt_max_deg",
     },
     [
-        Case(source.replace("_", "-"), "balance", robot, (f"zmp_source={source}",), 2)
+        Case(source.replace("_", "-"), "balance", robot, (f"zmp_source={source}",), 8)
         for robot in ("h1", "hrp2kai")
         for source in ("skin", "force_torque")
     ],

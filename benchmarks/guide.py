@@ -25,7 +25,7 @@ BENCHMARK = Benchmark(
         "set_out_s": "guide.set_out_s",
         **{name: f"guide.{name}" for name in HEADS},
     },
-    [Case(name, "guide", "h1", more, 2) for name, more in LINES.items()],
+    [Case(name, "guide", "h1", more, 4) for name, more in LINES.items()],
     {"fell": fallen, "failed criteria": failed, **{head: shown(name, SPREAD) for name, head in HEADS.items()}},
     "Medians, with the least and the most.",
 )

@@ -21,8 +21,8 @@ from types import ModuleType
 from introduced_robots import introduce
 from resumable import Benchmark, Case, add_row, commit, differences, latest, rows_of, run_row, wanted
 
-TABLES = ("push_steps", "footholds", "stones", "unknown_ground", "introduced_robots")
-TABLES += ("walks", "guide", "balance", "reactive_options", "survival_map", "plant", "grounds", "speed", "parts")
+TABLES = ("push_steps", "unknown_ground", "introduced_robots")
+TABLES += ("walks", "guide", "balance", "reactive_options", "survival_map", "grounds", "speed", "parts")
 
 
 def missing(script: ModuleType) -> Iterator[tuple[int, Case, tuple[str, int]]]:

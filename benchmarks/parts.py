@@ -63,13 +63,29 @@ LEFT_OUT: dict[str, tuple[str, ...] | type[Simulation]] = {
 """What is left out, and the settings or the simulation that leave it out."""
 
 
+WIDTHS = {"0.64 sole": "0.43 sole", "0.48 sole": "0.32 sole", "0.4 sole": "0.27 sole", "0.32 sole": "0.21 sole"}
+"""Widths of a beam, and how far to either side of the plan it may lie: two thirds of the width."""
+SHARES = (0.7, 0.5, 0.4, 0.3, 0.2)
+"""Of the sole that the third foothold carries, at its rear."""
+
+
+def sweeps() -> dict[str, tuple[str, tuple[str, ...]]]:
+    """Scene and settings of each ground of a geometric sweep."""
+    beams = {f"beam of {w}": ("beam", (f"width={w}", f"offset_range={off}")) for w, off in WIDTHS.items()}
+    return beams | {f"{100 * s:.0f} % of a sole": ("partial-third", (f"share={s}",)) for s in SHARES}
+
+
 def cases() -> list[Case]:
     found = []
+    for name, (scene, settings) in sweeps().items():
+        for sees in ("skin", "off"):
+            more = (*settings, f"control.footholds={sees}")
+            found += [Case(f"{name}, {sees}", scene, robot, more, SEEDS) for robot in ROBOTS]
     for name, how in LEFT_OUT.items():
         settings, kind = (how, Simulation) if isinstance(how, tuple) else ((), how)
         for scene in SCENES:
             for robot in ROBOTS:
-                found.append(Case(f"{scene}, {name}", scene, robot, settings, SEEDS, plants=("ordinary",), kind=kind))
+                found.append(Case(f"{scene}, {name}", scene, robot, settings, SEEDS, kind=kind))
     return found
 
 
@@ -129,3 +145,13 @@ def report() -> None:
     page = FOLDER / "parts.md"
     write_table(page, [markdown_table(("left out", *(f"`{s}`" for s in SCENES), "all"), lines), "", origin(BENCHMARK)])
     write_table(page, [markdown_table(head, figures)], "figures")
+    grounds = []
+    for name in sweeps():
+        by = [
+            [r for r in rows if r["case"] == f"{name}, {sees}" and r["robot"] == robot]
+            for sees in ("skin", "off")
+            for robot in ROBOTS
+        ]
+        grounds.append((name, *map(cell, by)))
+    sides = [f"{robot}, {how}" for how in ("as the soles see it", "every foothold taken as whole") for robot in ROBOTS]
+    write_table(page, [markdown_table(("ground", *sides), grounds)], "sweep")

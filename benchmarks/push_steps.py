@@ -19,8 +19,8 @@ ON_H1: list[tuple[str, str, tuple[str, ...]]] = [
     ("along a beam, 20 N s", "push-beam", ()),
 ]
 CASES = [
-    *(Case(name, scene, robot, more, SEEDS, plants=("drawn",)) for name, scene, more in ON_BOTH for robot in ROBOTS),
-    *(Case(name, scene, "h1", more, SEEDS, plants=("drawn",)) for name, scene, more in ON_H1),
+    *(Case(name, scene, robot, more, SEEDS) for name, scene, more in ON_BOTH for robot in ROBOTS),
+    *(Case(name, scene, "h1", more, SEEDS) for name, scene, more in ON_H1),
 ]
 
 BENCHMARK = Benchmark(

@@ -1,8 +1,8 @@
 """Outcomes of scenes over seeds: a row a run, appended as it ends, never changed.
 
-A case is counted on two plants: one drawn within what ordinary care leaves (`plant=random`, `level=2`), or half of that
-("drawn", `level=1`), and the controller's exact model. Seeds are drawn from the commit, so that no version of the code
-has met them before, and the first draw is published. A table keeps the rows of the commits that are listed under it.
+A case is counted on plants drawn within what ordinary care leaves (`plant=random`, `level=2`), and where a table says
+so on the controller's exact model, too. Seeds are drawn from the commit, so that no version of the code has met them
+before, and the first draw is published. A table keeps the rows of the commits that are listed under it.
 """
 
 import csv
@@ -28,17 +28,13 @@ FEW = 4
 
 PLANTS: dict[str, tuple[str, ...]] = {
     "ordinary": ("plant=random", "plant.level=2"),
-    "drawn": ("plant=random", "plant.level=1"),
     "exact": (),
     "own": (),
 }
 """Settings of each plant that a case is counted on; "own" is for cases that are about the plant."""
 
-DRAWN = ("ordinary", "drawn", "own")
+DRAWN = ("ordinary", "own")
 """Plants that differ from the controller's model."""
-
-HEADS = ("plant drawn", "exact plant")
-"""Heads of the cells that `counted` gives."""
 
 
 class Case(NamedTuple):
@@ -60,7 +56,7 @@ class Case(NamedTuple):
     seeds: int
     aside: bool = False
     file: str = ""
-    plants: tuple[str, ...] = ("drawn", "exact")
+    plants: tuple[str, ...] = ("ordinary",)
     kind: Callable[..., Any] | None = None
 
 
@@ -101,13 +97,17 @@ class Benchmark:
     def report(self) -> None:
         """Write the table between its markers in the page: a line a case with runs."""
         rows = rows_of(self.path)
+        sides = {"completed": DRAWN}
+        if any("exact" in case.plants for case in self.cases):
+            sides["on the exact plant"] = ("exact",)
         lines = []
         for case in self.cases:
             mine = [r for r in rows if (r["case"], r["robot"]) == (case.name, case.robot)]
             if mine:
                 cells = [cell(of_now(mine)) for cell in self.shown.values()]
-                lines.append((case.name, case.robot, *counted(mine), *cells))
-        table = markdown_table(("case", "robot", *HEADS, *self.shown), lines)
+                counts = (counted(mine, plants) for plants in sides.values())
+                lines.append((case.name, case.robot, *counts, *cells))
+        table = markdown_table(("case", "robot", *sides, *self.shown), lines)
         write_table(self.folder / f"{self.name}.md", [table, "", f"{self.note} {origin(self)}".strip()])
 
 
@@ -258,14 +258,11 @@ def differences(row: Row, again: dict[str, Any]) -> list[str]:
     return [k for k in row if row[k] != texts[k] and not k.endswith(timed)]
 
 
-def counted(rows: Sequence[Row]) -> list[str]:
-    """Completed runs on a drawn plant and on an exact one, with Wilson's interval at 95 % in percent."""
-    cells = []
-    for plants in (DRAWN, ("exact",)):
-        mine = [r["completed"] == "True" for r in latest(rows) if r["plant"] in plants]
-        low, high = wilson_interval(sum(mine), len(mine))
-        cells.append(f"{sum(mine)}/{len(mine)} ({100 * low:.0f}-{100 * high:.0f})" if mine else "-")
-    return cells
+def counted(rows: Sequence[Row], plants: Sequence[str] = DRAWN) -> str:
+    """Completed runs on some kinds of plants, with Wilson's interval at 95 % in percent."""
+    mine = [r["completed"] == "True" for r in latest(rows) if r["plant"] in plants]
+    low, high = wilson_interval(sum(mine), len(mine))
+    return f"{sum(mine)}/{len(mine)} ({100 * low:.0f}-{100 * high:.0f})" if mine else "-"
 
 
 def of_now(rows: Sequence[Row]) -> list[Row]:

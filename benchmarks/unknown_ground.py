@@ -30,8 +30,8 @@ _ON_ONE: list[tuple[str, str, tuple[str, ...]]] = [
 """Name, scene and settings."""
 
 CASES = [
-    *(Case(name, scene, robot, more, SEEDS, plants=("drawn",)) for robot in ROBOTS for name, scene, more in _ON_BOTH),
-    *(Case(name, scene, "h1", more, SEEDS, plants=("drawn",)) for name, scene, more in _ON_ONE),
+    *(Case(name, scene, robot, more, SEEDS) for robot in ROBOTS for name, scene, more in _ON_BOTH),
+    *(Case(name, scene, "h1", more, SEEDS) for name, scene, more in _ON_ONE),
 ]
 
 

@@ -1,9 +1,13 @@
 """Every walking scene on both robots: `python benchmarks/outcomes.py MINUTES walks`."""
 
+from itertools import product
+
 from resumable import Benchmark, Case, failed, fallen, shown
 from true_ground import RUNS
 
-SEEDS, LONG = 20, 2
+SEEDS, LONG, WORN = 20, 2, 10
+WORN_RUNS = tuple(product(("flat", "push", "beam", "turn", "stones"), ("h1", "hrp2kai")))
+"""Counted with wear and poor ground, too."""
 
 BENCHMARK = Benchmark(
     "walks",
@@ -19,6 +23,9 @@ BENCHMARK = Benchmark(
     [
         Case(scene, scene, robot, (), LONG if scene == "long-walk" else SEEDS, plants=("ordinary", "exact"))
         for scene, robot in RUNS
+    ]
+    + [
+        Case(f"{scene}, worn", scene, robot, ("plant=everything",), WORN, plants=("own",)) for scene, robot in WORN_RUNS
     ],
     {
         "falls": fallen,
