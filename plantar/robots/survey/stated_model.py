@@ -3,7 +3,7 @@
 import math
 import re
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -26,6 +26,7 @@ _LIMITS = {"": "limits", "actfrc": "torque limits", "force": "force limits", "ct
 _IMU = re.compile(r"(?<![a-z])imu(?![a-z])|Imu(?![a-z])|(?<![A-Z])IMU(?![A-Z]{2})")  # a word, not in "maximum"
 _Range = tuple[float, float]
 _ANY: _Range = (-math.inf, math.inf)
+_LEAST_SIDE = 1e-3  # m: of a box that stands for a link
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
@@ -80,7 +81,7 @@ def read_stated_model(file: Path, folder: Path) -> StatedModel:
     _check_limits(spec, file)
     posture = _first_keyframe(spec)
     _drop_other_things(spec, stated.notes)
-    _drop_unreadable(spec, source, folder, stated.notes)
+    bare = _drop_unreadable(spec, source, folder, stated.notes)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS and e.active]
     stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
     _collect_motors(spec, stated)
@@ -89,15 +90,21 @@ def read_stated_model(file: Path, folder: Path) -> StatedModel:
     forget_own_simulation(spec)
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
-        model = _compiled(spec, file)
+        try:
+            model = _compiled(spec, file)
+        except RobotError as error:
+            raise explained(error, stated.notes) from None
+        if bare:
+            stated.notes[:0] = _boxes_for_meshes(spec, model, bare)
+            model = _compiled(spec, file)
     stated.notes += [str(doubt.message) for doubt in doubts]
-    bare = [
+    unweighed = [
         b.name
         for b in spec.bodies[1:]
         if source.is_urdf and not b.explicitinertial and model.body(b.name).mass[0] > 1e-3
     ]
-    weight = sum(float(model.body(name).mass[0]) for name in bare)
-    stated.notes += named_note(f"without an inertial, weighed by their shapes as water: {weight:.3g} kg", bare)
+    weight = sum(float(model.body(name).mass[0]) for name in unweighed)
+    stated.notes += named_note(f"without an inertial, weighed by their shapes as water: {weight:.3g} kg", unweighed)
     return StatedModel(
         file=file,
         name=spec.modelname if spec.modelname not in ("", "MuJoCo Model") else file.stem,
@@ -112,6 +119,15 @@ def read_stated_model(file: Path, folder: Path) -> StatedModel:
 def named_note(text: str, names: Sequence[str]) -> list[str]:
     """Gives text with names, if any."""
     return [f"{text}: {', '.join(names)}"] if names else []
+
+
+def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
+    """Returns an `error` with explaining `notes`."""
+    notes = tuple(notes)
+    missing = [note for note in notes if note.startswith(("meshes are missing", "mesh "))][:2]
+    causes = [note for note in notes if note.startswith("held, ") or ("cannot be" in note and note not in missing)]
+    file, _, problem = str(error).partition(": ")
+    return RobotError("; ".join([f"{file}: {'; '.join([*missing, problem])}", *causes[:3]]))
 
 
 def _read_joints(root: ElementTree.Element, file: Path, stated: _Stated) -> None:
@@ -181,7 +197,8 @@ def _joints_below(body: Any) -> list[Any]:
     return [*body.joints, *(joint for child in body.bodies for joint in _joints_below(child))]
 
 
-def _drop_unreadable(spec: Any, source: ModelSource, folder: Path, notes: list[str]) -> None:
+def _drop_unreadable(spec: Any, source: ModelSource, folder: Path, notes: list[str]) -> dict[str, str]:
+    """Take away what MuJoCo cannot read; returns missing meshes by name of the body that is left without a shape."""
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
     for part in ("textures", "skins", "hfields", "flexes"):
@@ -197,15 +214,37 @@ def _drop_unreadable(spec: Any, source: ModelSource, folder: Path, notes: list[s
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
     drawn = [(mesh, source.mesh_path(spec, mesh)) for mesh in spec.meshes if mesh.file]
     meshes = meshes_for_mujoco((path for _, path in drawn), folder, source.file)
+    lost: dict[str, str] = {}
     for mesh, path in drawn:
         found = meshes[path]
         if found is not None:
-            if found != path or source.is_urdf:
-                mesh.file = str(found.resolve())
+            mesh.file = str(found.resolve())
             continue
         users = [g for g in spec.geoms if g.meshname == mesh.name]
         notes.append(f"mesh {path.name} cannot be read; the {len(users)} shape(s) made of it are left out")
+        lost |= {geom.parent.name: path.name for geom in users}
         delete_all(spec, [*users, mesh])
+    spec.strippath = False  # as it is for a URDF, MuJoCo 4 would look for these files beside the model
+    return {name: mesh for name, mesh in lost.items() if not len(spec.body(name).geoms)}
+
+
+def _boxes_for_meshes(spec: Any, model: Any, bare: Mapping[str, str]) -> list[str]:
+    """Give each body whose meshes are missing the box of even density that has its mass and inertia; returns a note.
+
+    Of a box with sides a, b, c: inertia about the first axis is m (b^2 + c^2) / 12, and so on.
+    """
+    made = []
+    for name in bare:
+        body = model.body(name)
+        inertia = body.inertia
+        sides = np.sqrt(np.maximum(6.0 * (inertia.sum() - 2.0 * inertia), 0.0) / max(float(body.mass[0]), 1e-9))
+        if sides.min() < _LEAST_SIDE:  # a frame, or a link without a mass
+            continue
+        spec.body(name).add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX, size=0.5 * sides, pos=body.ipos, quat=body.iquat, mass=0.0
+        )
+        made.append(f"{name} ({bare[name]}) " + " x ".join(f"{1e3 * side:.0f}" for side in sides) + " mm")
+    return named_note("meshes are missing: boxes by mass and inertia stand for them", made)
 
 
 def _is_empty(geom: Any) -> bool:

@@ -1,6 +1,6 @@
 """Legs, feet, torso and motors of a robot's model."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -14,7 +14,7 @@ from plantar.common.sides import SIDES, Side
 from plantar.errors import RobotError
 from plantar.robots.survey.leg_chains import Legs, find_legs
 from plantar.robots.survey.sole_frame import Sole, find_sole
-from plantar.robots.survey.stated_model import StatedModel, named_note, read_stated_model
+from plantar.robots.survey.stated_model import StatedModel, explained, named_note, read_stated_model
 
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
 NO_SPEED = 1e3  # rad/s: stands for no limit
@@ -121,14 +121,6 @@ def _check_masses(model: Any, feet: float, file: Path) -> None:
             f"{file}: {100.0 * feet / weight:.0f} % of the robot's {weight:.3g} kg are in its feet; allowed: half at "
             "most; give its other links a mass"
         )
-
-
-def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
-    """Returns an `error` with explaining `notes`."""
-    missing = [note for note in notes if "cannot be read" in note][:2]
-    causes = [note for note in notes if note.startswith("held, ") or ("cannot be" in note and note not in missing)]
-    file, _, problem = str(error).partition(": ")
-    return RobotError("; ".join([f"{file}: {'; '.join([*missing, problem])}", *causes[:3]]))
 
 
 def _loop_notes(source: StatedModel, legs: Legs) -> list[str]:

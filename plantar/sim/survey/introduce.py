@@ -26,7 +26,8 @@ from plantar.robots.survey.fitted_gait import FittedGait, fit_gait
 from plantar.robots.survey.model_copy import add_rotors, write_model_copy
 from plantar.robots.survey.robot_text import robot_text
 from plantar.robots.survey.servo_gains import rotor_inertia
-from plantar.robots.survey.survey import Survey, explained, survey_model
+from plantar.robots.survey.stated_model import explained
+from plantar.robots.survey.survey import Survey, survey_model
 from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.robot_picture import draw_robot

@@ -1,6 +1,7 @@
 """What a model's file holds beside the robot, and joints of a URDF that cannot turn."""
 
 import itertools
+import re
 import warnings
 from dataclasses import replace
 
@@ -11,6 +12,7 @@ import pytest
 from plantar import RobotError
 from plantar.robots.survey.body_surface import shapes_of
 from plantar.robots.survey.stated_model import read_stated_model
+from plantar.robots.survey.surface_file import stl_bytes
 from plantar.robots.survey.survey import NO_SPEED, survey_model
 
 from .random_biped import random_biped
@@ -334,6 +336,48 @@ def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
     file.write_text(f"<mujoco>{head}<worldbody>{body}</worldbody></mujoco>")
     mass = mujoco.mj_getTotalmass(read_stated_model(file, tmp_path).model)
     assert mass == pytest.approx(mujoco.mj_getTotalmass(mujoco.MjModel.from_xml_path(str(file))))
+
+
+def test_meshes_of_a_ros_package_are_those_of_its_manifests_name(tmp_path):
+    """The folder has another name, as that of a checkout has, and the mesh lies in another folder than the URDF."""
+    folder = tmp_path / "checkout" / "urdf"
+    meshes = folder.parent / "meshes"
+    folder.mkdir(parents=True)
+    meshes.mkdir()
+    (folder.parent / "package.xml").write_text("<package><name>my_robot</name></package>")
+    corners = np.array([[0, 0, 0], *np.eye(3)])
+    (meshes / "arm.stl").write_bytes(stl_bytes(corners[[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]]))
+    mesh = '<visual><geometry><mesh filename="package://my_robot/meshes/arm.stl"/></geometry></visual>'
+    file = folder / "robot.urdf"
+    file.write_text(urdf('<limit lower="-1" upper="1"/>').replace('<link name="arm">', f'<link name="arm">{mesh}'))
+    source = read_stated_model(file, tmp_path)
+    assert source.model.nmesh == 1
+    assert source.notes == []
+
+
+def test_a_box_by_mass_and_inertia_stands_for_a_missing_mesh_and_is_said_first(tmp_path):
+    truth = random_biped(10, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    half = np.array([0.1, 0.05, 0.03])
+    for name in truth.feet.values():
+        foot = spec.body(name)
+        for geom in foot.geoms:
+            spec.delete(geom)
+        foot.mass = 2.0
+        foot.inertia = 2.0 / 3.0 * ((half**2).sum() - half**2)
+    spec.compile()
+    meshes = "<asset><mesh name='foot' file='foot.stl'/></asset></mujoco>"
+    text = spec.to_xml().replace("</mujoco>", meshes)
+    for name in truth.feet.values():
+        text = re.sub(rf'(<body name="{name}"[^>]*>)', r"\1<geom type='mesh' mesh='foot'/>", text)
+    truth.file.write_text(text)
+    found = read_stated_model(truth.file, tmp_path)
+    assert found.notes[0].startswith("meshes are missing: boxes by mass and inertia stand for them: ")
+    assert found.notes[0].count("(foot.stl) 200 x 100 x 60 mm") == 2
+    for name in truth.feet.values():
+        body = found.model.body(name)
+        np.testing.assert_allclose(found.model.geom_size[body.geomadr[0]], half, rtol=1e-4)
+    assert found.model.body(name).mass[0] == pytest.approx(2.0)
 
 
 def test_an_attached_model_keeps_its_own_angles_and_folder_of_meshes(tmp_path):
