@@ -247,6 +247,10 @@ def _mounting_checks(m: Mounting, reach: float, shoe: Shoe, build: ShoeBuild) ->
         yield _least("gap between foot and clips or lugs, mm", above, 0.05, 3)
     how = "as its model moves" if m.links_known else "shank assumed"
     yield Check(f"places where the robot's other links meet print or straps, {how}", m.links == 0, float(m.links), "0")
+    unread = build.foot.unread
+    if unread:
+        name = f"links near the foot whose shape is not read ({', '.join(unread)})"
+        yield Check(name, False, float(len(unread)), "0: give the model its meshes, or state the shank (--shank)")
     yield _least("gap while the shoe is pushed on, mm", m.gap_on_the_way, p.clearance - 0.05, 3)
     yield Check("undercut of the foot's place, mm2", m.undercut == 0.0, m.undercut, "0")
     yield _most("gap between foot and floor, mm", m.floor_gap, 0.05, 3)

@@ -31,6 +31,7 @@ class Foot:
         support: Part touching a flat floor; None for all.
         mass: Robot's in kg.
         links: Points (n, 3) of other robot links as the ankle moves; None if unknown.
+        unread: Names of other robot links that may come near and whose shape is not known.
         poses: Of each side's sole frame, on the bare sole, in the file or link it came from, where known; in m.
     """
 
@@ -43,6 +44,7 @@ class Foot:
     support: Any | None = None
     mass: float | None = None
     links: NDArray[np.float64] | None = None
+    unread: tuple[str, ...] = ()
     poses: Mapping[Side, SourcePose] = field(default_factory=dict, hash=False)
 
     def __repr__(self) -> str:

@@ -21,6 +21,8 @@ _LARGEST = 100e6  # bytes of a mesh
 FARTHEST = 1e6  # distance in m beyond which no shape reaches
 
 _UNLIMITED = 0.6  # rad to either side of a joint without limits
+# radii of gyration from a center of mass to a link's farthest point: up to 2.92 of 88 links of legs of nine models
+_REACH = 3.0
 _READ_BY_MUJOCO = (".stl", ".obj", ".msh")
 _NOT_NEEDED: tuple[str, ...] = (
     *("keys", "sensors", "actuators", "tendons", "equalities", "pairs", "excludes", "tuples", "skins", "flexes"),
@@ -34,6 +36,30 @@ _ELSEWHERE = 2
 Array = NDArray[np.float64]
 # Gives the rotation (3, 3) and place (3,) of shapes for angles of joints
 Poses = Callable[[Iterable[float]], list[tuple[Array, Array]]]
+
+
+class UnreadLink(NamedTuple):
+    """A body whose mesh cannot be read: its name, why, and the distance in m from its center of mass within which its
+    shape stays, by its mass and inertia; infinite where the model states none.
+    """
+
+    name: str
+    problem: str
+    reach: float
+
+
+class LinksAbove(NamedTuple):
+    """Links above a foot.
+
+    `surfaces`: triangles (n, 3, 3) in m of each shape; `ranges`: of the last two hinges above, in rad; `poses`: from
+    their angles to each shape's rotation (3, 3) and place (3,), body frame at the zero pose, then to those of the
+    centers of mass of what is `unread`.
+    """
+
+    surfaces: list[Array]
+    ranges: list[tuple[float, float]]
+    poses: Poses
+    unread: tuple[UnreadLink, ...]
 
 
 class _NotCompiled(FootError):
@@ -60,6 +86,7 @@ class ModelBodies:
     def __init__(self, file: Path) -> None:
         self.file = file
         self._source = read_model_source(file, FootError)
+        self._read: dict[Path, Array] = {}
 
     def _spec(self) -> Any:
         """Editable model, without what lacks mass and shape."""
@@ -169,12 +196,14 @@ class ModelBodies:
             (drawn if model.geom_group[g] == _DRAWN else colliding).append(local @ turn.T + data.geom_xpos[g] - origin)
         return drawn, colliding
 
-    def links_above(self, name: str, count: int) -> tuple[list[Array], list[tuple[float, float]], Poses]:
-        """Shapes of links above a foot and its toes, and how the ankle moves them.
+    def links_above(self, name: str, count: int) -> LinksAbove:
+        """The links above the foot of a name, count of them, and its toes, and how the ankle moves them."""
+        try:
+            return self._links_above(name, count, read_all=False)
+        except _NotCompiled:
+            return self._links_above(name, count, read_all=True)
 
-        `count`: links above. Returns triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges
-        above; function from their angles to each shape's rotation (3, 3) and place (3,), body frame at the zero pose.
-        """
+    def _links_above(self, name: str, count: int, *, read_all: bool) -> LinksAbove:
         import mujoco
 
         spec = self._spec()
@@ -186,34 +215,60 @@ class ModelBodies:
             if link.parent is None or link.parent.name == "world":
                 break
             link = _moving(link.parent)
-        drawn = {g.parent.name for g in spec.geoms if not _collides(g)}
-        spare = [g for g in spec.geoms if g.parent.name in drawn and _collides(g)]
-        delete_all(spec, [*(g for g in spec.geoms if g.parent.name not in kept - own and g not in spare), *spare])
+        delete_all(spec, [g for g in spec.geoms if g.parent.name not in kept - own])
+        problems = self._mesh_problems(spec, read_all)
+        lost = [g for g in spec.geoms if g.meshname in problems]
+        unread = {g.parent.name: problems[g.meshname] for g in lost}
+        colliding = {g.parent.name for g in lost if _collides(g)}
+        delete_all(spec, lost)
+        # What collides stands in for what is drawn and cannot be read.
+        replaced = {g.parent.name for g in spec.geoms if _collides(g)} - colliding
+        drawn = {g.parent.name for g in spec.geoms if not _collides(g)} - set(unread)
+        delete_all(spec, [g for g in spec.geoms if g.parent.name in drawn and _collides(g)])
+        unread = {body: why for body, why in unread.items() if body not in replaced}
+        weighed = {body: _weighed(spec.body(body)) for body in unread}
         for geom in spec.geoms:
             geom.contype = 0
             geom.conaffinity = 0
-        self._give_meshes(spec, read_all=False)
+        self._give_meshes(spec, read_all)
         for mesh in spec.meshes:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         model, data = self._placed(spec)
         foot = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
         joints = _hinges_above(model, foot)
         start = data.xmat[foot].reshape(3, 3).copy()
+        centers = [model.body(weighed[body] or body).id for body in unread]
 
         def poses(angles: Iterable[float]) -> list[tuple[Array, Array]]:
             data.qpos[model.jnt_qposadr[joints]] = list(angles)
             mujoco.mj_kinematics(model, data)
             turn = start @ data.xmat[foot].reshape(3, 3).T
-            return [
-                (turn @ data.geom_xmat[g].reshape(3, 3), turn @ (data.geom_xpos[g] - data.xpos[foot]))
-                for g in range(model.ngeom)
-            ]
+            places = [(data.geom_xmat[g], data.geom_xpos[g]) for g in range(model.ngeom)]
+            places += [(data.ximat[body], data.xipos[body]) for body in centers]
+            return [(turn @ own.reshape(3, 3), turn @ (place - data.xpos[foot])) for own, place in places]
 
         ranges = [
             (low, high) if model.jnt_limited[j] and low < high < low + math.tau else (-_UNLIMITED, _UNLIMITED)
             for j, (low, high) in zip(joints, model.jnt_range[joints].tolist(), strict=True)
         ]
-        return [_surface(model, g, str(self.file)) for g in range(model.ngeom)], ranges, poses
+        surfaces = [_surface(model, g, str(self.file)) for g in range(model.ngeom)]
+        without = tuple(
+            UnreadLink(body, why, _reach(model, center) if weighed[body] else math.inf)
+            for (body, why), center in zip(unread.items(), centers, strict=True)
+        )
+        return LinksAbove(surfaces, ranges, poses, without)
+
+    def _mesh_problems(self, spec: Any, read_all: bool) -> dict[str, str]:
+        """Why meshes that are used cannot be read, by name."""
+        used = {g.meshname for g in spec.geoms if g.meshname}
+        problems = {}
+        for mesh in spec.meshes:
+            if mesh.name in used and mesh.file:
+                try:
+                    self._check_mesh(self._source.mesh_path(spec, mesh), read_all)
+                except FootError as error:
+                    problems[mesh.name] = str(error)
+        return problems
 
     def _few_enough(self, model: Any, name: str) -> None:
         """Refuse too many triangles before making them: meshes may be reused many times."""
@@ -235,16 +290,24 @@ class ModelBodies:
             if not mesh.file:
                 continue
             path = self._source.mesh_path(spec, mesh)
-            kind = path.suffix.lower()
-            if kind == ".msh" or (kind in _READ_BY_MUJOCO and not read_all):
-                check_input(path, FootError, _LARGEST)
+            triangles = self._check_mesh(path, read_all)
+            if triangles is None:
                 mesh.file = str(path.resolve())
             else:
-                triangles = read_mesh(path)[0]
                 mesh.file = ""
                 mesh.uservert = triangles.ravel()
                 mesh.userface = np.arange(3 * len(triangles), dtype=np.int32)
         spec.strippath = False  # as it is for a URDF, the folders found here would be left out
+
+    def _check_mesh(self, path: Path, read_all: bool) -> Array | None:
+        """Triangles (n, 3, 3) of a mesh that MuJoCo does not read itself; FootError where it cannot be read."""
+        kind = path.suffix.lower()
+        if kind == ".msh" or (kind in _READ_BY_MUJOCO and not read_all):
+            check_input(path, FootError, _LARGEST)
+            return None
+        if path not in self._read:
+            self._read[path] = read_mesh(path)[0]
+        return self._read[path]
 
     def _placed(self, spec: Any) -> tuple[Any, Any]:
         import mujoco
@@ -289,6 +352,22 @@ def _moving(body: Any) -> Any:
 
 def _collides(geom: Any) -> bool:
     return bool(geom.contype or geom.conaffinity)
+
+
+def _weighed(body: Any) -> str:
+    """Name of the body of a link whose stated inertia holds a body of it; empty where none is stated."""
+    while _weighed_by_shapes(body) or not body.explicitinertial:
+        if body.joints or body.parent is None or body.parent.name == "world":
+            return ""
+        body = body.parent
+    return str(body.name)
+
+
+def _reach(model: Any, body: int) -> float:
+    mass = float(model.body_mass[body])
+    if not mass > 2.0 * LEAST:
+        return math.inf
+    return _REACH * math.sqrt(0.5 * float(model.body_inertia[body].sum()) / mass)
 
 
 def _weighed_by_shapes(body: Any) -> bool:

@@ -1,12 +1,13 @@
 """Robot foot geometry and robot mass from MJCF or URDF."""
 
 import itertools
+import math
 import os
 import re
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +52,8 @@ class BodyGeometry:
     """Body surface about its origin, zero pose.
 
     `triangles` (n, 3, 3) in m, z up; `mass`: robot's in kg, or None; `links`: points (n, 3) in m of moving links above,
-    or None; `link`: its frame; `other`: the other foot, where it is this one's mirror image.
+    or None; `unread`: names of those that may come near and whose shape is not known; `link`: its frame; `other`: the
+    other foot, where it is this one's mirror image.
     """
 
     triangles: Array
@@ -59,6 +61,7 @@ class BodyGeometry:
     mass: float | None
     notes: tuple[str, ...]
     links: Array | None = None
+    unread: tuple[str, ...] = ()
     link: Link | None = None
     other: OtherFoot | None = None
 
@@ -97,11 +100,12 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None, unit: Unit | 
     mass, note = source.mass(body)
     read = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in {unit or 'm as models are'}"
     read += ", without what moves below it" if bodies[body].carries else ""
-    foreign = None, "the links above the foot are read in m alone"
-    links, swept = swept_points(source, body, triangles) if unit in (None, "m") else foreign
+    foreign = SweptLinks(None, ("the links above the foot are read in m alone",))
+    swept = swept_links(source, body, triangles) if unit in (None, "m") else foreign
     link = Link(source.file.name, body, bodies[body].rotation.T)
     other = _other_foot(source, body, bodies, triangles)
-    return BodyGeometry(triangles, side_of_name(body), mass, (read, note, swept), links, link, other)
+    notes = (read, note, *swept.notes)
+    return BodyGeometry(triangles, side_of_name(body), mass, notes, swept.points, swept.unread, link, other)
 
 
 def name_of_other(body: str) -> str | None:
@@ -193,27 +197,55 @@ _LINKS = 3  # above the foot that are looked at
 _POSES = 5  # of each joint, from end to end of its range
 _NEAR = 0.05  # m around the foot
 _SPACING = 0.004  # m between points
+_ALL = "all above the foot"  # in place of the names of links, where the model cannot be compiled
 
 
-def swept_points(source: ModelBodies, name: str, surface: Array) -> tuple[Array | None, str]:
-    """Gives points (n, 3) in m, or None, of links above a foot over its last two hinges' range, and a note: source is
-    the model, name the foot's body, surface its triangles (k, 3, 3), near which points are kept.
+class SweptLinks(NamedTuple):
+    """Points (n, 3) in m that links above a foot pass, or None; notes; names of links that may pass where no point is,
+    as their shape is not known.
+    """
+
+    points: Array | None
+    notes: tuple[str, ...]
+    unread: tuple[str, ...] = ()
+
+
+def swept_links(source: ModelBodies, name: str, surface: Array) -> SweptLinks:
+    """Gives where links above a foot pass over its last two hinges' range: source is the model, name the foot's body,
+    surface its triangles (k, 3, 3), near which points are kept.
     """
     try:
-        surfaces, ranges, poses = source.links_above(name, _LINKS)
+        links = source.links_above(name, _LINKS)
     except FootError as error:
-        return None, "the robot's other links are not read: " + str(error).removeprefix(f"{source.file}: ")[:100]
-    if not surfaces:
-        return None, "the links above the foot have no shape"
-    clouds = [thinned(surface_points(triangles, _SPACING), _SPACING) for triangles in surfaces]
+        return SweptLinks(None, ("the robot's other links are not read: " + _reason(source, error),), (_ALL,))
+    if not links.surfaces and not links.unread:
+        return SweptLinks(None, ("the links above the foot have no shape",))
+    clouds = [thinned(surface_points(triangles, _SPACING), _SPACING) for triangles in links.surfaces]
     low = surface.min(axis=(0, 1)) - _NEAR
     high = surface.max(axis=(0, 1)) + _NEAR
-    found = []
-    for angles in itertools.product(*(np.linspace(*span, _POSES) for span in ranges)):
-        for points, (turn, place) in zip(clouds, poses(angles), strict=True):
+    found = [np.empty((0, 3))]
+    away = dict.fromkeys(links.unread, math.inf)
+    for angles in itertools.product(*(np.linspace(*span, _POSES) for span in links.ranges)):
+        poses = links.poses(angles)
+        for points, (turn, place) in zip(clouds, poses, strict=False):
             near = points @ turn.T + place
             found.append(near[((near > low) & (near < high)).all(axis=1)])
+        for link, (_, center) in zip(links.unread, poses[len(clouds) :], strict=True):
+            away[link] = min(away[link], float(np.linalg.norm(center - np.clip(center, low, high))) - link.reach)
     swept = thinned(np.concatenate(found), _SPACING)
-    spans = ", ".join(f"{np.degrees(end - start):.0f}" for start, end in ranges)
-    note = f"the links above the foot are swept over {len(ranges)} joint(s), {spans} degrees"
-    return (swept, note) if len(swept) else (None, "no link above the foot passes near it")
+    spans = ", ".join(f"{np.degrees(end - start):.0f}" for start, end in links.ranges)
+    note = f"the links above the foot are swept over {len(links.ranges)} joint(s), {spans} degrees"
+    if not len(swept):
+        note = "no link above the foot passes near it"
+    lacking = (
+        f"the shape of link '{link.name}' is not read"
+        f"{', but by its mass it passes nowhere near' if gap > 0.0 else ''}: {_reason(source, link.problem)}"
+        for link, gap in away.items()
+    )
+    unread = tuple(link.name for link, gap in away.items() if gap <= 0.0)
+    return SweptLinks(swept if len(swept) else None, (note, *lacking), unread)
+
+
+def _reason(source: ModelBodies, problem: object) -> str:
+    """Why links are not read, without the folder of their model, which every reader of a page would see."""
+    return str(problem).removeprefix(f"{source.file}: ").replace(f"{source.file.parent.resolve()}/", "")[:120]

@@ -5,6 +5,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
+
 from plantar.common.files.input_file import check_input
 from plantar.common.files.structured_text import packaged_files, read_toml
 from plantar.common.sides import SIDES, Side, other_side
@@ -71,10 +73,14 @@ def _with_shank(foot: Foot, text: str | None) -> Foot:
     if text is None:
         return foot
     shank = stated_shank(text)
-    if foot.links is not None:
+    if foot.links is not None and not foot.unread:
         raise InputError("--shank is for a foot alone; the robot's model shows where its links pass")
     links = shank_links(shank, shank, min(foot.height, _SHANK_TOP))
-    return replace(foot, links=links, notes=(*foot.notes, f"the shank passes where --shank states it: {text}"))
+    if foot.links is not None:
+        links = np.concatenate([foot.links, links])
+    return replace(
+        foot, links=links, unread=(), notes=(*foot.notes, f"the shank passes where --shank states it: {text}")
+    )
 
 
 def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
@@ -104,7 +110,7 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
         options |= {"file_unit": "m", "mesh_side": named or "left", "links": found.links, "link": found.link}
         foot = foot_from_triangles(path.stem, found.triangles, where=where, **options)
         notes = (*found.notes, *foot.notes, *(() if named else (_ASSUMED,)))
-        return replace(foot, mass=found.mass, notes=notes, poses=_poses_of_both(foot, found))
+        return replace(foot, mass=found.mass, notes=notes, unread=found.unread, poses=_poses_of_both(foot, found))
     if source.body is not None:
         raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")
     foot = foot_from_mesh(path, mesh_side=side, **options)

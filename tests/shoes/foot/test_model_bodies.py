@@ -250,3 +250,63 @@ def test_a_urdf_shows_its_links_from_meshes_in_another_folder(tmp_path):
     assert body.links is not None
     assert body.notes[-1] == "the links above the foot are swept over 2 joint(s), 57, 115 degrees"
     assert body.links[:, 2].max() > 0.05
+
+
+LEG_OF_MESHES = """<mujoco><asset><mesh name="thigh" file="thigh.stl"/><mesh name="shank" file="shank.stl"/></asset>
+<worldbody><body name="hip" pos="0 0 .9"><joint axis="0 1 0" range="-60 60"/>{inertia}
+<geom type="mesh" mesh="thigh"/><body name="knee" pos="0 0 -.4"><joint axis="0 1 0" range="0 120"/>
+<inertial pos="0 0 -.1" mass="1.6" diaginertia=".01 .01 .001"/><geom type="mesh" mesh="shank"/>{spare}
+<body name="ankle" pos="0 0 -.4"><joint axis="0 1 0" range="-30 30"/>
+<body name="foot"><joint axis="1 0 0" range="-20 20"/><geom type="box" size=".1 .045 .02" pos=".03 0 -.05"/>
+</body></body></body></body></worldbody></mujoco>"""
+THIGH = '<inertial pos="0 0 -.05" mass="2.66" diaginertia=".027 .027 .004"/>'
+
+
+def leg(tmp_path, *meshes: str, inertia: str = THIGH, spare: str = "") -> Any:
+    for name in meshes:
+        bar = trimesh.creation.box((0.06, 0.06, 0.36))
+        bar.apply_translation([0.0, 0.0, -0.18])
+        bar.export(tmp_path / f"{name}.stl")
+    file = tmp_path / "leg.xml"
+    file.write_text(LEG_OF_MESHES.format(inertia=inertia, spare=spare))
+    return read_foot_body(file, "foot")
+
+
+def test_a_link_far_from_the_foot_whose_mesh_is_missing_leaves_the_others_swept(tmp_path):
+    whole = leg(tmp_path, "thigh", "shank")
+    (tmp_path / "thigh.stl").unlink()
+    body = leg(tmp_path, "shank")
+    assert body.unread == ()
+    np.testing.assert_allclose(body.links, whole.links)
+    assert body.notes[-2] == whole.notes[-1] == "the links above the foot are swept over 2 joint(s), 40, 60 degrees"
+    assert body.notes[-1].startswith(
+        "the shape of link 'hip' is not read, but by its mass it passes nowhere near: thigh.stl: cannot be read"
+    )
+
+
+@pytest.mark.parametrize(("missing", "inertia"), [("shank", THIGH), ("thigh", "")])
+def test_a_link_that_may_come_near_the_foot_and_cannot_be_read_is_named(tmp_path, missing, inertia):
+    body = leg(tmp_path, *({"thigh", "shank"} - {missing}), inertia=inertia)
+    assert body.unread == ({"shank": "knee", "thigh": "hip"}[missing],)
+    assert (body.links is None) == (missing == "shank")
+    assert f"link '{body.unread[0]}' is not read: {missing}.stl" in body.notes[-1]
+
+
+def test_what_collides_stands_in_for_a_drawn_mesh_that_is_missing(tmp_path):
+    drawn = LEG_OF_MESHES.replace('mesh="shank"/>', 'mesh="shank" contype="0" conaffinity="0"/>')
+    (tmp_path / "leg.xml").write_text(drawn.format(inertia=THIGH, spare='<geom size=".03 .15" pos="0 0 -.2"/>'))
+    bar = trimesh.creation.box((0.06, 0.06, 0.36))
+    bar.export(tmp_path / "thigh.stl")
+    body = read_foot_body(tmp_path / "leg.xml", "foot")
+    assert body.unread == ()
+    assert body.links is None  # a sphere of 30 mm, 200 mm above the ankle
+
+
+def test_a_stated_shank_takes_the_place_of_a_link_that_cannot_be_read(tmp_path):
+    leg(tmp_path, "thigh")
+    source = FootSource(file=tmp_path / "leg.xml", body="foot")
+    foot, _ = read_foot(source, sole_band=5.0)
+    assert foot.unread == ("knee",)
+    stated, _ = read_foot(FootSource(file=tmp_path / "leg.xml", body="foot", shank="0,0,60"), sole_band=5.0)
+    assert stated.unread == ()
+    assert stated.links is not None

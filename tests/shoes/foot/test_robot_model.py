@@ -166,7 +166,7 @@ def test_a_model_in_another_unit_is_refused_before_its_links_are_swept(tmp_path,
     path = tmp_path / "walker.xml"
     foot = f"<body name='foot'><joint/><geom type='box' size='{0.1 * scale} {0.05 * scale} {0.02 * scale}'/></body>"
     path.write_text(f"<mujoco><worldbody><body><joint/><geom size='.1'/>{foot}</body></worldbody></mujoco>")
-    monkeypatch.setattr(robot_model, "swept_points", None)
+    monkeypatch.setattr(robot_model, "swept_links", None)
     with pytest.raises(FootError, match=rf"body 'foot': the foot is {length} mm long \(unit m as the file states\)"):
         read_foot_body(path, "foot")
     if scale > 1.0:
