@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,21 @@ class SoleSense(Record, frozen=True):
     rotation: NDArray[np.float64]
 
 
+class _Slope(NamedTuple):
+    """Ground that slopes on.
+
+    `rise`: from the standing foot to the swing's end in m; `share`: of the last step's rise that it explains; `tilt`:
+    rotation vector (3,) in rad of a sole on it, less its heading.
+    """
+
+    rise: float
+    share: float
+    tilt: NDArray[np.float64]
+
+
+_LEVEL = _Slope(0.0, 0.0, np.zeros(3))
+
+
 class FootMotion:
     """Commanded footholds over time.
 
@@ -79,6 +95,7 @@ class FootMotion:
         self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
         self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
         self._lifted_tilt = np.zeros(3)
+        self._slope = _LEVEL.tilt
         self._expected = float(np.mean([feet[s].z for s in SIDES]))
         self._planned = self._expected
         self._swing: Swing | None = None
@@ -267,22 +284,27 @@ class FootMotion:
         self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame, again: bool = False
     ) -> None:
         side = target.side
-        if self._swing is not None:
-            # Where the other foot found the ground is the best guess of where this one will.
-            landed = float(self.footholds[other_side(side)][0][2])
-            self._expected += self._landing.ground_share * (landed - self._expected)
+        stance = other_side(side)
         position, yaw = self.footholds[side]
         x, y = frame.to_command(target.position[:2]).tolist()
+        yaw_end = target.yaw - frame.turn
+        rise = target.z - self._planned
+        slopes = _LEVEL if rise else self._slopes_on(stance, position, x - position[0], y - position[1], yaw_end)
+        self._slope = slopes.tilt
+        if self._swing is not None:
+            # Where the other foot found the ground is the best guess of where this one will: the better, the more of
+            # its step's rise a slope explains.
+            landed = float(self.footholds[stance][0][2])
+            self._expected += max(self._landing.ground_share, slopes.share) * (landed - self._expected)
         # By the plan it is as much higher or lower as that has its steps; by itself, if it slopes on.
-        rise = target.z - self._planned or self._rise(other_side(side), position, x - position[0], y - position[1])
-        self._expected = self._expected + rise
+        self._expected += rise or slopes.rise
         self._planned = target.z
         sees = self._compliance is not None
         start = SwingStart(
             position=position.copy(),
             yaw=yaw,
             end=np.array([x, y, self._expected - self._landing.depth]),
-            yaw_end=target.yaw - frame.turn,
+            yaw_end=yaw_end,
             height=self._height,
             duration=times[1] - times[0],
             period=self._period,
@@ -312,18 +334,22 @@ class FootMotion:
             self._lag.begin()
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
 
-    def _rise(self, stance: Side, lifted: NDArray[np.float64], way_x: float, way_y: float) -> float:
-        """Rise in m from the standing foot to the swing's end, by the slope that its sole and the last step share."""
+    def _slopes_on(self, stance: Side, lifted: NDArray[np.float64], way_x: float, way_y: float, yaw: float) -> _Slope:
+        """Returns the slope that the standing sole and the last step share, to the swing's end."""
         way = math.hypot(way_x, way_y)
         if self._compliance is None or way < _NEARLY_THERE * self._leg:
-            return 0.0
+            return _LEVEL
         x, y, z = (self.footholds[stance][0] - lifted).tolist()
         gone = float(way_x * x + way_y * y) / way
         normal_x, normal_y, normal_z = self.rotation(stance)[:, 2].tolist()
         slope = -(way_x * normal_x + way_y * normal_y) / (way * normal_z)
         if gone < _NEARLY_THERE * self._leg or slope * z <= 0.0:
-            return 0.0
-        return math.copysign(min(abs(slope), abs(float(z) / gone)), slope) * (way - gone)
+            return _LEVEL
+        last = float(z) / gone
+        shared = math.copysign(min(abs(slope), abs(last)), slope)
+        along = math.atan2(way_y, way_x) - yaw
+        tilt = math.atan(shared) * vector(math.sin(along), -math.cos(along), 0.0)
+        return _Slope(shared * (way - gone), shared / last, tilt)
 
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
         """Lift a landed foot and repeat its step elsewhere."""
@@ -365,7 +391,7 @@ class FootMotion:
             planned, heading = swing.at(elapsed)
             if risen < 1.0:
                 self.footholds[side] = (planned, heading)
-                self._tilts[side] = rotation_from_vector((1.0 - risen) * self._lifted_tilt)
+                self._tilts[side] = rotation_from_vector(self._lifted_tilt + risen * (self._slope - self._lifted_tilt))
                 return
             x, y, z = planned.tolist()
             falling = swing.falling(elapsed, z)
@@ -391,7 +417,8 @@ class FootMotion:
                 # A block under a rim is not under the middle: unless all is one plane, what would be met first counts.
                 under = view.middle if view.even else min(view.middle, view.distance)
                 self.surprise = above_frame - under - self._expected
-            turn = compliance.turn(self._tilts[side], view if remaining < _CLOSE_BY * self._leg else None, period)
+            near = view if remaining < _CLOSE_BY * self._leg else None
+            turn = compliance.turn(self._tilts[side], near, period, self._slope)
             turn_x = turn.item(0)
             turn_y = turn.item(1)
             if turn_x != 0.0 or turn_y != 0.0:

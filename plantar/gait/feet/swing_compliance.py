@@ -22,6 +22,7 @@ _LARGEST_YIELD = 0.00824  # leg/beat at which a foot that has touched gives way
 _LARGEST_CHANGE = 2.0  # leg/beat^2 by which the speed of a sole in the air changes: sight comes in steps
 _LARGEST_TURN_CHANGE = 2.75  # rad/beat^2 of its turn, likewise
 _SOONER = 0.45  # share of its time in which a hasty descent comes to the ground sooner
+_LEVEL = np.zeros(3)
 _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
 
 
@@ -145,16 +146,22 @@ class SwingCompliance:
         self._rate = min(self._rate + most, max(self._rate - most, wanted))
         return self._rate * period
 
-    def turn(self, rotation: NDArray[np.float64], view: GroundView | None, period: float) -> NDArray[np.float64]:
-        """Turn of a tick, to the ground's slope, or level if too little is seen.
+    def turn(
+        self,
+        rotation: NDArray[np.float64],
+        view: GroundView | None,
+        period: float,
+        expected: NDArray[np.float64] = _LEVEL,
+    ) -> NDArray[np.float64]:
+        """Turn of a tick, to the ground's slope, or to the expected one if too little is seen.
 
-        `rotation`: sole's (3, 3), less its heading; `view` of the sole; None comes to rest; `period` of control in s.
-        Returns the turn (3,) in rad, sole frame.
+        `rotation`: sole's (3, 3), less its heading; `view` of the sole; None comes to rest; `period` of control in s;
+        `expected`: that rotation's vector (3,) in rad on ground as expected. Returns the turn (3,) in rad, sole frame.
         """
         x = 0.0
         y = 0.0
         if view is not None and view.slope is None:
-            x, y, _ = (vector_from_rotation(rotation) / -self.gains.turning).tolist()
+            x, y, _ = ((expected - vector_from_rotation(rotation)) / self.gains.turning).tolist()
         elif view is not None and view.slope is not None and view.distance < 0.8 * self.ground.settings.sensing_range:
             x = view.slope[1] / self.gains.turning
             y = -view.slope[0] / self.gains.turning

@@ -318,13 +318,23 @@ def seeing(ground, tilt=0.0, rise=0.0, until=3.28, block=None):
 
 
 @pytest.mark.parametrize(
-    ("tilt", "rise", "expected"),
-    [(0.1, 0.02, 0.02), (0.1, 0.01, 0.01), (0.05, 0.02, 0.01), (-0.1, -0.02, -0.02), (0.1, -0.02, 0.0)],
+    ("tilt", "rise", "slope", "expected"),
+    [
+        (0.1, 0.02, 0.1, 0.04),
+        (0.1, 0.01, 0.05, 0.02),
+        (0.05, 0.02, 0.05, 0.02),
+        (-0.1, -0.02, -0.1, -0.04),
+        (0.1, -0.02, 0.0, -0.006),
+    ],
     ids=["both", "less risen", "less tilted", "down", "differ"],
 )
-def test_ground_slopes_on_as_far_as_sole_and_step_agree(tilt, rise, expected):
-    level, sloping = (seeing(0.0, t, rise, until=2.45)[0] for t in (0.0, tilt))
-    assert sloping.comes_to - level.comes_to == pytest.approx(expected, abs=1e-3)  # a landed foot is pressed down
+def test_ground_slopes_on_as_far_as_sole_and_step_agree(tilt, rise, slope, expected):
+    motion, _ = seeing(0.0, tilt, rise, until=2.45)
+    # From the standing foot on as much as the slope explains its step, by `ground_share` otherwise.
+    assert motion.comes_to == pytest.approx(expected, abs=3e-3)  # a landed foot is pressed down
+    motion, _ = seeing(None, tilt, rise, until=2.9)
+    x, y, z = motion.rotation("right")[:, 0]
+    assert (y, z / x) == pytest.approx((0.0, slope), abs=3e-3)
 
 
 def test_a_foot_that_sees_no_ground_at_its_place_goes_down_to_look():
