@@ -18,6 +18,7 @@ _ROUND = 0.2  # of the way aside over which the lean ends
 # beats in which the torso comes to lean as far as a leg needs that carries for longer than a step; with 2 a hip that is
 # at its limit then stays there
 _LEANS = 1.0
+_MIDWAY = 0.5  # of the way from the standing foot to a lower one, where a double support holds the body
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
 
 
@@ -82,12 +83,14 @@ class BodyTargets:
         motion = footing.motion
         stance = phase.stance
         if stance is None:
-            target = 0.5 * (motion.footholds["left"][0].item(2) + motion.footholds["right"][0].item(2))
+            target = _MIDWAY * (motion.footholds["left"][0].item(2) + motion.footholds["right"][0].item(2))
             target += footing.contacts.rise
         else:
             stands = motion.footholds[stance][0].item(2)
-            # A leg that steps down has to reach the ground: the body comes down before its foot.
-            target = stands - min(max(0.0, stands - motion.comes_to), self._settings.spare_crouch)
+            # A leg that steps down has to reach the ground: the body comes down before its foot, to where both will
+            # have it. Lower, the standing knee carries it bent for nothing.
+            down = _MIDWAY * max(0.0, stands - motion.comes_to)
+            target = stands - min(down, self._settings.spare_crouch)
             target += footing.contacts.rise
             if self._legs and motion.comes_down:
                 target = self._within_reach(target, stands, stance, state)
