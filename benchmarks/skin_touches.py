@@ -10,6 +10,8 @@ body from drawn directions, one at a time. The count takes forces from `mj_conta
 and hulls of the meshes' corners, and shares of cells from the definition in docs/skin.md by SciPy's root finder: it
 shares no code with the skin. A touch whose face or place is on the border of a patch to 1e-6 is counted as such, and
 not compared.
+
+With MuJoCo Warp (`pip install '.[sim,warp]'`) `--warp` compares `WarpSkin` with the skin instead, on the same touches.
 """
 
 import argparse
@@ -44,6 +46,21 @@ from the touch in cell widths (of one at a rim, in distances of the nearest cell
 body has no surface or a strip.
 
 """
+OUTPUT = Path(__file__).with_suffix(".md")
+HEAD = (
+    "patches", "taxels", "touches", "largest error of a taxel", "of the sum", "farthest lit cell", "silent",
+    "phantom N", "on a border", "refused",
+)  # fmt: skip
+WARP_PAGE = """# Patches of skin in MuJoCo Warp
+
+`python benchmarks/skin_touches.py --warp` of the files of {count} public models; commit {commit}. On the touches
+of [its other page](skin_touches.md) `WarpSkin` reads the same contacts as the skin, as float32 numbers, on a CPU.
+*Largest difference*: of a taxel's force or the wrench, in shares of the load; 1e-5 is asked for. *Other carried*:
+readings in which it says otherwise whether the taxels carry the wrench.
+
+"""
+WARP_OUTPUT = Path(__file__).with_name("warp_patches.md")
+WARP_HEAD = ("patches", "taxels", "touched", "silent", "largest difference", "other carried", "on a border")
 PRISM = [[np.cos(a), np.sin(a), z] for z in (-1.0, 1.0) for a in np.arange(5) * 0.4 * np.pi]
 
 
@@ -62,6 +79,20 @@ class Count:
     sum_error: float = 0.0
     phantom: float = 0.0
     farthest: float = 0.0
+    warp_error: float = 0.0
+    uncarried: int = 0
+
+    def of_touches(self) -> list[str]:
+        return [
+            str(self.patches), str(self.taxels), str(self.touches), f"{self.taxel_error:.0e}", f"{self.sum_error:.0e}",
+            f"{self.farthest:.2f}", str(self.silent), f"{self.phantom:g}", str(self.border), str(len(self.refused)),
+        ]  # fmt: skip
+
+    def of_warp(self) -> list[str]:
+        return [
+            str(self.patches), str(self.taxels), str(self.touches), str(self.silent), f"{self.warp_error:.0e}",
+            str(self.uncarried), str(self.border),
+        ]  # fmt: skip
 
 
 def with_probes(spec: Any) -> Any:
@@ -185,12 +216,19 @@ def shares(feel: Any, place: NDArray[np.float64], inward: NDArray[np.float64], r
     return np.asarray(weights * np.maximum(0.0, rows @ found.x) / total)
 
 
+def is_clear(skin: Skin, feel: Any, hulls: dict[int, Hull], data: Any) -> bool:
+    """Whether no contact of the body is on a patch's border."""
+    own = feel.geom_ids
+    seen = [c for c in data.contact if (c.geom[0] in own) != (c.geom[1] in own)]
+    return all(touches(skin, feel, hulls, data, contact) is not None for contact in seen)
+
+
 def compare(skin: Skin, feel: Any, hulls: dict[int, Hull], data: Any, count: Count) -> None:
     """Add one reading to a count."""
     turn = data.xmat[feel.body].reshape(3, 3) @ feel.rotation_to_body
     origin = data.xpos[feel.body] + data.xmat[feel.body].reshape(3, 3) @ feel.position_in_body
     width = np.sqrt(feel.layout.areas.mean() * 2.0 / np.sqrt(3.0))
-    radius = feel.make_load.__self__.kernel[3]
+    radius = feel.wraps[3]
     expected = np.zeros((len(feel), 3))
     places = []
     local = np.zeros(6)
@@ -287,7 +325,24 @@ def bodies_of(model: Any, most: int) -> list[int]:
     return [able[i] for i in np.unique(np.linspace(0, len(able) - 1, min(most, len(able))).astype(int))] if able else []
 
 
-def counted(name: str, spec: Any, most: int = 3, seed: int = 0) -> Count | None:
+def compare_warp(bound: list[tuple[Any, Any]], model: Any, data: Any, count: Count) -> None:
+    """Add the differences of MuJoCo Warp's form to a count; `bound`: skins, each with its `WarpSkin`."""
+    import mujoco_warp
+
+    worlds = mujoco_warp.put_data(model, data, nworld=1)
+    for feel, many in bound:
+        many.read(worlds)
+        vectors, wrench, carried = many.numpy()
+        reading = feel(data)
+        load = max(float(np.linalg.norm(reading.wrench[:3])), 1.0)
+        off = max(float(np.abs(vectors[0] - reading.vectors).max()), float(np.abs(wrench[0] - reading.wrench).max()))
+        count.warp_error = max(count.warp_error, off / load)
+        count.uncarried += bool(carried[0]) != reading.carried
+        count.touches += bool(reading.vectors.any())
+        count.silent += not reading.vectors.any()
+
+
+def counted(name: str, spec: Any, most: int = 3, seed: int = 0, warp: bool = False) -> Count | None:
     """Compare on one model; None for one without a body that can wear a skin."""
     model = with_probes(spec)
     count = Count(name)
@@ -297,11 +352,11 @@ def counted(name: str, spec: Any, most: int = 3, seed: int = 0) -> Count | None:
         if model.nkey:
             mujoco.mj_resetDataKeyframe(model, data, 0)
         mujoco.mj_forward(model, data)
-        _at_body(model, data, body, count, rng)
+        _at_body(model, data, body, count, rng, warp)
     return count if count.patches else None
 
 
-def _at_body(model: Any, data: Any, body: int, count: Count, rng: np.random.Generator) -> None:
+def _at_body(model: Any, data: Any, body: int, count: Count, rng: np.random.Generator, warp: bool) -> None:
     name = model.body(body).name
     whole = np.array([[-9.0] * 3, [9.0] * 3])
     axis = np.eye(3)[rng.integers(3)]
@@ -321,6 +376,11 @@ def _at_body(model: Any, data: Any, body: int, count: Count, rng: np.random.Gene
             count.refused.append(str(problem))
     if not bound:
         return
+    many = []
+    if warp:
+        from plantar.mujoco.warp_skin import WarpSkin
+
+        many = [(feel, WarpSkin(feel, 1)) for _, feel in bound]
     own = list(bound[0][1].geom_ids)
     hulls = {g: Hull(model, g) for g in own}
     count.patches += len(bound)
@@ -330,6 +390,11 @@ def _at_body(model: Any, data: Any, body: int, count: Count, rng: np.random.Gene
             away(model, data)
             mujoco.mj_forward(model, data)
             if press(model, data, body, own, probe, rng):
+                if many:
+                    clear = [is_clear(skin, feel, hulls, data) for skin, feel in bound]
+                    count.border += clear.count(False)
+                    compare_warp([pair for pair, one in zip(many, clear, strict=True) if one], model, data, count)
+                    continue
                 for skin, feel in bound:
                     compare(skin, feel, hulls, data, count)
     away(model, data)
@@ -351,26 +416,21 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("paths", nargs="+", type=Path, help="model files, or folders with some")
     parser.add_argument("--bodies", type=int, default=3, help="most bodies a model (3)")
-    parser.add_argument("--output", type=Path, default=Path(__file__).with_suffix(".md"))
+    parser.add_argument("--warp", action="store_true", help="compare MuJoCo Warp's form too")
+    parser.add_argument("--output", type=Path)
     options = parser.parse_args()
     rows = []
     for path in options.paths:
         for name, spec in models_below(path):
-            count = counted(name, spec, options.bodies)
+            count = counted(name, spec, options.bodies, warp=options.warp)
             if count is None:
                 continue
             print(count, flush=True)
-            rows.append([
-                name, str(count.patches), str(count.taxels), str(count.touches), f"{count.taxel_error:.0e}",
-                f"{count.sum_error:.0e}", f"{count.farthest:.2f}", str(count.silent), f"{count.phantom:g}",
-                str(count.border), str(len(count.refused)),
-            ])  # fmt: skip
-    head = [
-        "model", "patches", "taxels", "touches", "largest error of a taxel", "of the sum", "farthest lit cell",
-        "silent", "phantom N", "on a border", "refused",
-    ]  # fmt: skip
+            rows.append([name, *(count.of_warp() if options.warp else count.of_touches())])
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, cwd=ROOT).stdout
-    options.output.write_text(PAGE.format(count=len(rows), commit=commit.strip()) + markdown_table(head, rows))
+    page, head, output = (WARP_PAGE, WARP_HEAD, WARP_OUTPUT) if options.warp else (PAGE, HEAD, OUTPUT)
+    text = page.format(count=len(rows), commit=commit.strip()) + markdown_table(["model", *head], rows)
+    (options.output or output).write_text(text)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """A plantar skin in a MuJoCo model, read from simulation data."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from threading import Lock
@@ -30,8 +30,6 @@ from plantar.sensing.taxel_faults import TaxelFaults
 
 _LIFT = 0.02  # m inside the body at which proximity rays begin
 _PASSED = 20  # surfaces of its own that a ray passes at most
-LoadMaker = Callable[[], PatchLoad]
-"""Makes the kernel of a patch that wraps."""
 
 MOST_DATA = 64
 """How many MjData have their contacts kept in view, and so in memory, unless more are read at once."""
@@ -98,6 +96,7 @@ class BoundSkin:
         slip: Whether taxels' sliding is read.
         layer: Elastic layer over the cells, or None; `shared`: how the cells share a load by it.
         faults: Of its taxels, or None; `seed` of their draws.
+        wraps: Of a patch that wraps, the arguments of `PatchLoad`, else None.
         static: Taxels' places, axes, areas, widths, and hull of places, as in `TaxelLoad`.
     """
 
@@ -116,7 +115,7 @@ class BoundSkin:
         layer: ElasticLayer | None = None,
         faults: TaxelFaults | None = None,
         seed: int = 0,
-        make_load: LoadMaker | None = None,
+        wraps: tuple[Any, ...] | None = None,
         rings: Sequence[NDArray[np.float64]] = (),
     ) -> None:
         self.model = model
@@ -132,12 +131,12 @@ class BoundSkin:
         self.faults = faults
         self.seed = seed
         self._nearest = _least_gaps(model, body).tolist()
-        self.make_load = make_load
+        self.wraps = wraps
         axes = layout.rotations[:, :, 2]
         self.rings = list(rings)
         if isinstance(layout, SoleLayout) and not rings:
             self.rings = [layout.vertices[list(c)] for c in layout.corners]
-        flat = 2 if make_load is None else 3
+        flat = 2 if wraps is None else 3
         widths = [
             float(np.linalg.norm(ring[:, :flat] - place[:flat], axis=1).max())
             for ring, place in zip(self.rings, layout.positions, strict=True)
@@ -168,7 +167,7 @@ class BoundSkin:
     @property
     def is_patch(self) -> bool:
         """Whether it wraps, and reads only what touches it."""
-        return self.make_load is not None
+        return self.wraps is not None
 
     @property
     def patch(self) -> SkinPatch:
@@ -327,7 +326,7 @@ class SkinView:
         self.rotation = np.eye(3)
         self._skin = skin
         self._reader = ContactReader(skin.model, data, (skin.geom_ids,))
-        self._load: Any = TaxelLoad(*skin.static) if skin.make_load is None else skin.make_load()
+        self._load: Any = TaxelLoad(*skin.static) if skin.wraps is None else PatchLoad(*skin.wraps)
         self._seen = ContactsInSole()
         self._reach = skin.reach
         self._still = np.zeros(len(self._load.block))

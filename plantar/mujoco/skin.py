@@ -243,7 +243,7 @@ class Skin:
         patch = self._wrapped(model, geoms)
         return BoundSkin(
             model, patch.layout, body, geoms, patch.position, patch.rotation,
-            make_load=patch.load, rings=patch.rings, **self._sensing(),
+            wraps=patch.kernel, rings=patch.rings, **self._sensing(),
         )  # fmt: skip
 
     def _wrapped(self, model: Any, geoms: list[int]) -> WrappedSkin:

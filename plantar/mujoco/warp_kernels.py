@@ -16,12 +16,12 @@ def _as_it_is(function):
     return function
 
 
-_func, _kernel, _struct = 3 * (_as_it_is,) if wp is None else (wp.func, wp.kernel, wp.struct)
+func, kernel, struct = 3 * (_as_it_is,) if wp is None else (wp.func, wp.kernel, wp.struct)
 if wp is not None:
     wp.set_module_options({"enable_backward": False})  # half of the time to compile
 
 
-@_struct
+@struct
 class Sole:
     """A sole of n taxels and its frame in a body."""
 
@@ -38,7 +38,7 @@ class Sole:
     level: wp.bool
 
 
-@_struct
+@struct
 class Contacts:
     """All worlds' contacts, as MuJoCo Warp lists them."""
 
@@ -58,7 +58,7 @@ class Contacts:
     elliptic: wp.bool
 
 
-@_struct
+@struct
 class Work:
     """Each world's contacts in the sole frame (k, world), and work arrays (i, slot).
 
@@ -84,27 +84,16 @@ class Work:
     carried: wp.array(dtype=wp.int32)
 
 
-@_func
+@func
 def _row(contacts: Contacts, i: wp.int32, j: wp.int32, world: wp.int32) -> wp.float64:
     if contacts.address[i, j] < 0:  # dropped for want of room
         return wp.float64(0.0)
     return wp.float64(contacts.force[world, contacts.address[i, j]])
 
 
-@_kernel
-def gather(sole: Sole, contacts: Contacts, work: Work):
-    """Add each of the `contacts` to the lists of the `sole` in `work`, in its frame; a thread a contact."""
-    i = wp.tid()
-    if i >= contacts.count[0]:
-        return
-    geoms = contacts.geom[i]
-    first = geoms[0] >= 0 and sole.own[wp.max(geoms[0], 0)] != 0  # -1 is a flex
-    if first == (geoms[1] >= 0 and sole.own[wp.max(geoms[1], 0)] != 0):
-        return
-    world = contacts.world[i]
-    k = wp.atomic_add(work.size, world, 1)
-    if k >= work.gap.shape[0]:
-        return
+@func
+def contact_load(contacts: Contacts, i: wp.int32, world: wp.int32):
+    """Force and torque of a contact on its second geom, less adhesion; contact frame."""
     local = wp.vec3d()
     twist = wp.vec3d()
     if contacts.address[i, 0] >= 0:
@@ -124,6 +113,24 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
                 twist[j - 3] = value
         if contacts.adhesion:
             local[0] -= wp.float64(contacts.adhesion[i])
+    return local, twist
+
+
+@kernel
+def gather(sole: Sole, contacts: Contacts, work: Work):
+    """Add each of the `contacts` to the lists of the `sole` in `work`, in its frame; a thread a contact."""
+    i = wp.tid()
+    if i >= contacts.count[0]:
+        return
+    geoms = contacts.geom[i]
+    first = geoms[0] >= 0 and sole.own[wp.max(geoms[0], 0)] != 0  # -1 is a flex
+    if first == (geoms[1] >= 0 and sole.own[wp.max(geoms[1], 0)] != 0):
+        return
+    world = contacts.world[i]
+    k = wp.atomic_add(work.size, world, 1)
+    if k >= work.gap.shape[0]:
+        return
+    local, twist = contact_load(contacts, i, world)
     sign = wp.where(first, wp.float64(-1.0), wp.float64(1.0))
     turn = wp.mat33d(contacts.xmat[world, sole.body])
     to_sole = wp.transpose(turn @ sole.turn)
@@ -136,12 +143,12 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
     work.torque[k, world] = to_sole @ (axes @ twist)
 
 
-@_func
+@func
 def _counts(sole: Sole, work: Work, w: wp.int32, k: wp.int32) -> wp.bool:
     return work.gap[k, w] <= sole.reach or work.force[k, w][2] != wp.float64(0.0)
 
 
-@_func
+@func
 def _join(work: Work, s: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec2d) -> wp.int32:
     while corners - floor >= 2:
         a = work.ring[corners - 1, s] - work.ring[corners - 2, s]
@@ -155,7 +162,7 @@ def _join(work: Work, s: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec
     return corners + 1
 
 
-@_func
+@func
 def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     for k in range(1, size):
         p = work.points[k, s] + wp.vec3d()  # a copy, not a reference
@@ -177,7 +184,7 @@ def _hull_of(work: Work, s: wp.int32, size: wp.int32) -> wp.int32:
     return corners - wp.where(corners > 1, 1, 0)
 
 
-@_func
+@func
 def _distance(work: Work, s: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.float64:
     deepest = wp.float64(-1e300)
     for k in range(corners):
@@ -196,7 +203,7 @@ def _distance(work: Work, s: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.flo
     return wp.sqrt(nearest)
 
 
-@_func
+@func
 def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
     corners = _hull_of(work, s, size)
     for k in range(corners):
@@ -219,7 +226,7 @@ def _cover(sole: Sole, work: Work, s: wp.int32, size: wp.int32):
         work.weights[i, s] = sole.areas[i] * share
 
 
-@_func
+@func
 def _is_beyond(sole: Sole, at: wp.vec2d) -> wp.bool:
     corners = sole.hull.shape[0]
     for k in range(corners):
@@ -230,7 +237,7 @@ def _is_beyond(sole: Sole, at: wp.vec2d) -> wp.bool:
     return False
 
 
-@_func
+@func
 def _tilt(
     sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), s: wp.int32, force: wp.float64, at: wp.vec2d
 ) -> wp.bool:
@@ -296,7 +303,7 @@ def _tilt(
     return False
 
 
-@_func
+@func
 def _even(sole: Sole, work: Work, s: wp.int32, force: wp.float64):
     total = wp.float64(0.0)
     for i in range(sole.areas.shape[0]):
@@ -305,7 +312,7 @@ def _even(sole: Sole, work: Work, s: wp.int32, force: wp.float64):
         work.normal[i, s] = force * work.weights[i, s] / total
 
 
-@_func
+@func
 def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.int32):
     for k in range(count):
         known = not _counts(sole, work, w, k)
@@ -334,7 +341,7 @@ def _spread_pairs(sole: Sole, work: Work, w: wp.int32, s: wp.int32, count: wp.in
                     work.prior[i, s] += work.normal[i, s]
 
 
-@_func
+@func
 def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
     best = wp.float64(1e300)
     found = wp.vec2d(p[0], p[1])
@@ -351,7 +358,7 @@ def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
     return found
 
 
-@_func
+@func
 def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
     zero = wp.float64(0.0)
     count = sole.areas.shape[0]
@@ -386,7 +393,7 @@ def _carry(sole: Sole, work: Work, s: wp.int32, force: wp.float64, at: wp.vec2d)
     return False
 
 
-@_func
+@func
 def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
     middle = wp.vec2d()
     spread = wp.float64(0.0)
@@ -410,7 +417,7 @@ def _shear(sole: Sole, work: Work, w: wp.int32, s: wp.int32, force: wp.vec3d, ab
     return holds
 
 
-@_kernel
+@kernel
 def press(sole: Sole, work: Work):
     """Spread each world's contact wrench over the taxels; a thread a world.
 
@@ -465,28 +472,33 @@ def press(sole: Sole, work: Work):
     work.carried[w] = wp.where(holds, carried, 0)
 
 
-@_kernel
-def share(sole: Sole, shares: wp.array2d(dtype=wp.float64), work: Work, out: wp.array2d(dtype=wp.vec3d)):
-    """Share forces as an elastic layer does, from `work` to `out`; a thread a world and cell."""
+@kernel
+def share(shares: wp.array2d(dtype=wp.float64), vectors: wp.array2d(dtype=wp.vec3d), out: wp.array2d(dtype=wp.vec3d)):
+    """Share forces as an elastic layer does, from `vectors` to `out`; a thread a world and cell."""
     w, i = wp.tid()
     force = wp.vec3d()
-    for j in range(sole.areas.shape[0]):
-        force += shares[i, j] * work.vectors[w, j]
+    for j in range(shares.shape[0]):
+        force += shares[i, j] * vectors[w, j]
     out[w, i] = force
 
 
-@_kernel
-def check_moment(sole: Sole, shares: wp.array2d(dtype=wp.float64), work: Work, out: wp.array2d(dtype=wp.vec3d)):
-    """Clear `carried` where the shared forces have not the contacts' moment to 1e-9 of load times extent."""
+@kernel
+def check_moment(
+    positions: wp.array(dtype=wp.vec3d),
+    wrench: wp.array2d(dtype=wp.float64),
+    vectors: wp.array2d(dtype=wp.vec3d),
+    carried: wp.array(dtype=wp.int32),
+):
+    """Clear `carried` where shared forces have not the contacts' moment to 1e-9 of load times extent."""
     w = wp.tid()
-    off = wp.vec3d(-work.wrench[w, 3], -work.wrench[w, 4], -work.wrench[w, 5])
+    off = wp.vec3d(-wrench[w, 3], -wrench[w, 4], -wrench[w, 5])
     load = wp.float64(0.0)
     extent = wp.float64(0.0)
-    for i in range(sole.areas.shape[0]):
-        f = out[w, i]
-        p = sole.positions[i]
+    for i in range(positions.shape[0]):
+        f = vectors[w, i]
+        p = positions[i]
         off += wp.cross(p, f)
         load += wp.abs(f[0]) + wp.abs(f[1]) + wp.abs(f[2])
         extent = wp.max(extent, wp.max(wp.abs(p[0]), wp.max(wp.abs(p[1]), wp.abs(p[2]))))
     if wp.max(wp.abs(off[0]), wp.max(wp.abs(off[1]), wp.abs(off[2]))) > wp.float64(1e-9) * load * extent:
-        work.carried[w] = 0
+        carried[w] = 0

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.common.arrays import array
 from plantar.common.sides import Side
 from plantar.errors import RobotError
-from plantar.kernels.contacts.patch_load import PatchLoad
 from plantar.layouts.layout import DEFAULT_THRESHOLDS, SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
 from plantar.mujoco.geom_surface import GeomSurface
@@ -39,10 +38,6 @@ class WrappedSkin(NamedTuple):
     rotation: NDArray[np.float64]
     rings: list[NDArray[np.float64]]
     kernel: tuple[Any, ...]
-
-    def load(self) -> PatchLoad:
-        """A kernel of its own, of one thread at a time."""
-        return PatchLoad(*self.kernel)
 
 
 def body_surfaces(model: Any, body: int, geoms: Sequence[int]) -> list[GeomSurface]:

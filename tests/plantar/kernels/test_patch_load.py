@@ -27,7 +27,7 @@ MODEL = f"""<mujoco><asset>{MESH}</asset><worldbody><body name="limb"><freejoint
 )
 def test_compiled_form_is_the_interpreted_one(way):
     model = mujoco.MjModel.from_xml_string(MODEL)
-    kernel = Skin(body="limb", **way).bind(model).make_load.__self__.kernel
+    kernel = Skin(body="limb", **way).bind(model).wraps
     rng = np.random.default_rng(4)
     own = np.ones(model.ngeom + 1, dtype=np.uint8)
     own[-1] = 0

@@ -93,9 +93,7 @@ def counted(feel, data, touches) -> tuple[NDArray[np.float64], NDArray[np.float6
         wrench += np.concatenate([force, frame.T @ local[3:] + np.cross(contact.pos - origin, force)])
         place = contact.pos + 0.5 * contact.dist * normal
         away = places - place
-        weights = (
-            feel.layout.areas * (axes @ normal) * (1.0 - (away**2).sum(axis=1) / feel.make_load.__self__.kernel[3] ** 2)
-        )
+        weights = feel.layout.areas * (axes @ normal) * (1.0 - (away**2).sum(axis=1) / feel.wraps[3] ** 2)
         weights = np.where(axes @ normal > 0.0, np.maximum(weights, 0.0), 0.0)
         across = np.linalg.svd(normal[None])[2][1:]
         flat = away @ across.T / 0.01
