@@ -81,7 +81,9 @@ def introduced(name: str, model: Path) -> dict[str, object]:
     """The row of a robot's introduction; a traceback is no refusal."""
     done, seconds = command("robot", str(model), "-o", str(MADE / name))
     lines = done.stderr.strip().splitlines()
-    why = "" if done.returncode == 0 else lines[-1] if done.returncode == 2 else f"traceback: {lines[-1]}"
+    refused = lines[-1] if lines else ""
+    missed = "trials: " + "; ".join(line.removeprefix("plantar: ") for line in lines if "(plantar sim " in line)
+    why = {0: "", 1: missed, 2: refused}.get(done.returncode, f"traceback: {refused}")
     return {"completed": done.returncode == 0, "failed": why, "seconds": round(seconds, 1)}
 
 
@@ -133,13 +135,16 @@ def report() -> None:
         counts.append(f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}")
     made = [r for (_, case), r in rows.items() if case == "introduce"]
     lines.append(("completed", f"{sum(r['completed'] == 'True' for r in made)}/{len(made)}", *counts))
+    runs = [r["completed"] for r in rows.values() if r["predicted"]]
     predictions = []
     for predicted in ("True", "False"):
         mine = [r["completed"] for r in rows.values() if r["predicted"] == predicted]
         words = "nothing would go wrong" if predicted == "True" else "something would"
-        predictions.append((words, mine.count("True"), mine.count("False")))
+        predictions.append((words, mine.count("True"), mine.count("False"), mine.count(predicted)))
+    predictions.append(("the check, of all", "", "", f"{sum(p[3] for p in predictions)}/{len(runs)}"))
+    predictions.append(("always: nothing would go wrong", "", "", f"{runs.count('True')}/{len(runs)}"))
     table = markdown_table(("robot", "introduced, s", *SCENES), lines)
-    counted = markdown_table(("prediction of the check", "completed", "failed"), predictions)
+    counted = markdown_table(("prediction of the check", "completed", "failed", "right"), predictions)
     write_table(FOLDER / "public_robots.md", [table, "", counted])
 
 

@@ -17,6 +17,9 @@ BELOW = "plantar_world"
 LEAST = 1e-9
 """Mass in kg and inertia in kg m^2 that bodies of a URDF have at least: MuJoCo wants bodies that move to have some."""
 
+_SETTINGS = ("option", "size", "visual", "statistic")
+"""Parts of an MJCF that describe its simulation, and no robot; what they may hold changes with MuJoCo."""
+
 _COMPILER = {"discardvisual": "false", "fusestatic": "false", "strippath": "true"}
 _WORLD = "world"
 
@@ -46,7 +49,7 @@ class ModelSource:
             mujoco = quiet_mujoco()
         try:
             if not self.is_urdf:
-                return spec_of_file(self.file)
+                return self._mjcf(mujoco)
             spec = mujoco.MjSpec.from_string(ElementTree.tostring(self.root, encoding="unicode"))
         except Exception as problem:  # MuJoCo raises ValueError, OSError and its own
             text = " ".join(str(problem).split())
@@ -55,6 +58,20 @@ class ModelSource:
         spec.compiler.boundmass = LEAST
         spec.compiler.boundinertia = LEAST
         return spec
+
+    def _mjcf(self, mujoco: Any) -> Any:
+        """Of an MJCF; without what it sets of its simulation where that is of another MuJoCo than the one here."""
+        try:
+            return spec_of_file(self.file)
+        except ValueError as problem:
+            if "Schema violation" not in str(problem):
+                raise
+            for part in _SETTINGS:
+                for element in self.root.findall(part):
+                    self.root.remove(element)
+            spec = mujoco.MjSpec.from_string(ElementTree.tostring(self.root, encoding="unicode"))
+            spec.modelfiledir = str(self.file.parent)
+            return spec
 
     def mesh_path(self, spec: Any, mesh: Any) -> Path:
         """Path, perhaps missing, of a `mesh` of this file's `spec`."""

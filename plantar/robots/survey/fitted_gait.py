@@ -20,6 +20,7 @@ from plantar.robots.survey.plan_reach import PlanReach, Walked, missed_aside, pl
 from plantar.robots.survey.servo_gains import CHATTERS, DAMPED, JointInertia, joint_inertia, servo_gains
 from plantar.robots.survey.step_search import HELD, QUICK_STEPS, SPARE, TURN, best_steps, straight_walk
 from plantar.robots.survey.step_time import ankle_reach, has_ankle_roll
+from plantar.robots.survey.wishes import NO_WISHES, Wishes
 from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
 
 ROLL_MOST = math.radians(3.0)
@@ -80,17 +81,23 @@ class FittedGait:
         self.rotors = rotors
 
 
-def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Array | None = None) -> FittedGait:
+def fit_gait(
+    draft: Robot,
+    gains: Sequence[tuple[float, float]] = (),
+    rotors: Array | None = None,
+    wishes: Wishes = NO_WISHES,
+) -> FittedGait:
     """Fit a walk to a robot of known names, soles and limits.
 
     `draft`: the robot; its posture, gait and gains are replaced; `gains`: the model's stiffness in N m/rad and damping
-    in N m s/rad of each leg joint, or empty; `rotors`: assumed rotor inertia in kg m^2 about each leg joint, or None.
+    in N m s/rad of each leg joint, or empty; `rotors`: assumed rotor inertia in kg m^2 about each leg joint, or None;
+    `wishes`: their height and stance are taken as they are.
     """
     legs = build_leg_model(draft)
     robot = replace(draft, posture=bent_posture(draft, legs))
     body = body_of(robot, legs.model)
     notes: list[str] = []
-    robot = replace(robot, stance_width=stance_width(robot, legs))
+    robot = replace(robot, stance_width=wishes.stance or stance_width(robot, legs))
     pitching = pitching_joints(robot, "left", legs.model, stood(robot, legs.model))
     ankle = [legs.model.joint(name).id for name in robot.legs["left"].joints].index(pitching[-1])
     bears = ankle_reach(robot, body.weight, ankle)
@@ -98,9 +105,9 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
         robot = replace(robot, ankle_reach=bears)
     seed = posture_height(robot, legs)
     robot = robot if has_ankle_roll(robot, legs) else replace(robot, rocks=True)
-    robot, body, reach = best_steps(robot, legs, body, seed, notes)
+    robot, body, reach = best_steps(robot, legs, body, seed, notes, wishes)
     height = robot.com_height
-    narrower = robot if robot.rocks else _narrowed(robot, legs, body)
+    narrower = robot if robot.rocks or wishes.stance else _narrowed(robot, legs, body)
     if narrower is not robot:
         robot = narrower
         reach = plan_reach(narrower, legs, straight_walk(narrower, body, height, QUICK_STEPS))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from plantar.common.sides import Side
 from plantar.errors import RobotError
 from plantar.robots.survey.body_surface import geom_triangles, resting_plane, shapes_of
+from plantar.robots.survey.wishes import found
 
 LEAST_JOINTS = 4
 """Hinges that a leg has at least: roll and pitch of the hip, knee and pitch of the ankle."""
@@ -57,12 +58,19 @@ class Legs:
     notes: tuple[str, ...]
 
 
-def find_legs(model: Any, data: Any, where: str) -> Legs:
-    """Returns the legs of a `model` in state `data`; errors name the file `where`."""
+def find_legs(model: Any, data: Any, where: str, feet: tuple[str, str] | None = None) -> Legs:
+    """Returns the legs of a `model` in state `data`; errors name the file `where`.
+
+    `feet`: names of the bodies that legs end in; None: those that stand lowest.
+    """
     tree = _Tree(model, data)
     up, how = _upwards(tree, where)
-    pair = _pair(tree, up, where)
-    lower = [_leg(tree, up, chain, where) for chain in pair]
+    if feet is None:
+        pair = _pair(tree, up, where)
+        lower = [_leg(tree, up, chain, where) for chain in pair]
+    else:
+        pair = _named_pair(tree, feet, where)
+        lower = [_ended(tree, chain, where) for chain in pair]
     rotation, notes = _facing(tree, up, lower, where)
     across = [float((rotation @ leg.ankle)[1]) for leg in lower]
     left, right = lower if across[0] > across[1] else lower[::-1]
@@ -182,7 +190,6 @@ def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
 
 def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
     """The leg of a chain of links; the highest on the floor is the foot."""
-    model = tree.model
     data = tree.data
     up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
@@ -193,8 +200,29 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
         if float((tree.points[chain[last - 1]] @ up).min()) - floor > _NEAR_FLOOR * (anchor - floor):
             break
         last -= 1
-    links = chain[: last + 1]
-    foot = chain[last]
+    return _ended(tree, chain[: last + 1], where)
+
+
+def _named_pair(tree: _Tree, feet: tuple[str, str], where: str) -> tuple[list[int], list[int]]:
+    names = [tree.model.body(i).name for i in range(1, tree.model.nbody)]
+    for name in feet:
+        found(names, name, "--foot", where)
+    left, right = (int(tree.model.body_weldid[tree.model.body(name).id]) for name in feet)
+    pair = _apart(tree, left, right)
+    for name, chain in zip(feet, pair, strict=True):
+        if len(tree.hinges(chain)) < LEAST_JOINTS:
+            raise RobotError(
+                f"{where}: --foot names '{name}', which {len(tree.hinges(chain))} hinges move apart from the other "
+                f"foot; allowed: {LEAST_JOINTS} or more"
+            )
+    return pair
+
+
+def _ended(tree: _Tree, links: list[int], where: str) -> Leg:
+    """The leg whose last link is its foot."""
+    model = tree.model
+    data = tree.data
+    foot = links[-1]
     hinges = tree.hinges(links)
     other = next((j for i in links for j in tree.joints(i) if j not in hinges), None)
     if other is not None:
@@ -205,9 +233,12 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
             f"{where}: '{model.body(bare[-1]).name}', which moves below '{model.body(foot).name}', has no shape; "
             "allowed: feet of a mesh, box or sphere, and fixed joints of what has no shape below a foot"
         )
+    points = [tree.points[i] for i in tree.below(foot) if i in tree.points]
+    if not points:
+        raise RobotError(f"{where}: '{model.body(foot).name}' has no shape; allowed: feet of a mesh, box or sphere")
     parts = frozenset(b for i in tree.below(foot) for b in tree.bodies[i])
     toes = tuple(model.joint(j).name for i in tree.below(foot) if i != foot for j in tree.joints(i))
-    return Leg(tuple(hinges), foot, parts, toes, _ankle(data, hinges, tree.points[foot]))
+    return Leg(tuple(hinges), foot, parts, toes, _ankle(data, hinges, tree.points.get(foot, points[0])))
 
 
 def _above_sole(points: Array, up: Array) -> Array:

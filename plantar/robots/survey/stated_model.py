@@ -18,6 +18,7 @@ from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
 from plantar.robots.survey.body_surface import SHAPES
 from plantar.robots.survey.surface_file import meshes_for_mujoco
+from plantar.robots.survey.wishes import angles_of, found
 
 _COORDINATES = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}  # of a keyframe; other joints have one
 _MOST_TURNED = 20.0  # rad, three turns: hinges of robots have 10 at most, and in degrees a knee or hip has 45 or more
@@ -42,7 +43,7 @@ class StatedModel:
         imus: "site" or "body" and name of possible IMUs: with a gyro, with an accelerometer, called IMU.
         coupled: Pairs of joint names, of which the first follows the second.
         loops: Pairs of bodies tied outside the tree of joints.
-        upper_posture: Joint angles of the first keyframe, or empty.
+        upper_posture: Joint angles of arms, head and waist, of the first keyframe or as stated; or empty.
         notes: What was left out or changed.
     """
 
@@ -68,8 +69,11 @@ class _Stated:
     notes: list[str] = field(default_factory=list)
 
 
-def read_stated_model(file: Path, folder: Path) -> StatedModel:
-    """Returns a robot's model."""
+def read_stated_model(file: Path, folder: Path, posture: str | None = None) -> StatedModel:
+    """Returns the model of a robot's `file`; converted meshes go to `folder`.
+
+    `posture`: of arms, head and waist, as in `Wishes`; None for the first keyframe.
+    """
     stated = _Stated()
     source = read_model_source(file, RobotError)
     if source.is_urdf:
@@ -79,7 +83,7 @@ def read_stated_model(file: Path, folder: Path) -> StatedModel:
         raise RobotError(f"{file}: several links hang on no other; allowed: one, the robot's base")
     _name_all(spec)
     _check_limits(spec, file)
-    posture = _first_keyframe(spec)
+    upper_posture = _upper_posture(spec, posture, str(file))
     _drop_other_things(spec, stated.notes)
     bare = _drop_unreadable(spec, source, folder, stated.notes)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS and e.active]
@@ -111,7 +115,7 @@ def read_stated_model(file: Path, folder: Path) -> StatedModel:
         model=model,
         imus=imus,
         loops=tuple((_body_of(model, a), _body_of(model, b)) for a, b in loops),
-        upper_posture=posture,
+        upper_posture=upper_posture,
         **vars(stated),
     )
 
@@ -216,9 +220,9 @@ def _drop_unreadable(spec: Any, source: ModelSource, folder: Path, notes: list[s
     meshes = meshes_for_mujoco((path for _, path in drawn), folder, source.file)
     lost: dict[str, str] = {}
     for mesh, path in drawn:
-        found = meshes[path]
-        if found is not None:
-            mesh.file = str(found.resolve())
+        readable = meshes[path]
+        if readable is not None:
+            mesh.file = str(readable.resolve())
             continue
         users = [g for g in spec.geoms if g.meshname == mesh.name]
         notes.append(f"mesh {path.name} cannot be read; the {len(users)} shape(s) made of it are left out")
@@ -254,8 +258,17 @@ def _is_empty(geom: Any) -> bool:
     return not geom.meshname and not bool((geom.size[:sizes] > 0.0).all())
 
 
-def _first_keyframe(spec: Any) -> dict[str, float]:
-    qpos = next((np.array(key.qpos) for key in spec.keys if len(key.qpos)), np.zeros(0))
+def _upper_posture(spec: Any, posture: str | None, where: str) -> Mapping[str, float]:
+    """Angles in rad by hinge of a keyframe, or as a posture states them."""
+    if posture == "zero":
+        return {}
+    if posture is not None and "=" in posture:
+        return angles_of(posture, [j.name for j in spec.joints if j.type == mujoco.mjtJoint.mjJNT_HINGE], where)
+    keys = [key for key in spec.keys if len(key.qpos)]
+    if posture is not None:
+        found([key.name for key in keys], posture, "--posture", where)
+        keys = [key for key in keys if key.name == posture]
+    qpos = next((np.array(key.qpos) for key in keys), np.zeros(0))
     places = np.cumsum([0, *(_COORDINATES.get(j.type, 1) for j in spec.joints)])
     if len(qpos) != places[-1] or not np.isfinite(qpos).all():
         return {}

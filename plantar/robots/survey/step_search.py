@@ -15,6 +15,7 @@ from plantar.robots.robot import Robot
 from plantar.robots.survey.first_posture import least_stance
 from plantar.robots.survey.plan_reach import PlanReach, Walked, plan_reach, speed_shares
 from plantar.robots.survey.step_time import rocking
+from plantar.robots.survey.wishes import NO_WISHES, Wishes
 from plantar.robots.walk import Walk, walk_timing
 
 KNEE_LEAST = math.radians(20.0)
@@ -88,29 +89,32 @@ class _Tried:
 
 
 def best_steps(
-    robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
+    robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str], wishes: Wishes = NO_WISHES
 ) -> tuple[Robot, BodyScale, PlanReach]:
     """Returns the `robot` with the best height, pace, stance and lean, the `body` of its steps, and their demands.
 
-    `seed`: height in m of its CoM in that posture; `notes`: what was not met is added.
+    `seed`: height in m of its CoM in that posture; `notes`: what was not met is added; `wishes`: their height and
+    stance are the only ones looked at.
     """
     best: _Tried | None = None
     heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)
-    rocks = rocking(robot, seed)
+    if wishes.height is not None:
+        heights = np.array([wishes.height])
+    rocks = rocking(robot, float(heights[0]) if len(heights) == 1 else seed)
     quick = (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat)  # of the leg, for h1's speed
     for share in (min(1.0, quick),) if robot.rocks else _SHORTER:
         shorter = replace(body, leg=math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg)
         paid = 0.0 if robot.rocks else _OTHER_SPEED * -math.log2(share)
-        for other, changed in _others(robot, body):
+        for other, changed in _others(robot, body, wishes.stance is not None):
             if best is None or paid + changed < best.cost > _GOOD:
                 best = _least(best, other, legs, shorter, heights, paid + changed)
         if best is not None and best.body.leg == shorter.leg:
-            best = _refined(best if robot.rocks else _other_paces(best, legs, heights), legs)
+            best = _refined(best if robot.rocks else _other_paces(best, legs, heights), legs, heights)
     if best is None:
         raise RobotError(
             f"robot '{robot.name}': no height of its CoM, pace or stance lets it take steps of "
             f"{share * STEP_SHARE * body.leg:.3f} m within its joints' limits; nearest is "
-            f"{_nearest(robot, legs, body, seed)}"
+            f"{_nearest(robot, legs, body, heights)}"
         )
     best = best if robot.rocks else _slowed(best, legs, heights)
     if best.body.leg < body.leg:
@@ -144,12 +148,12 @@ def _slowed(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
         return found
     slower = replace(found.robot, pace=longer * found.robot.pace)
     best = _least(None, slower, legs, found.body, heights, found.paid)
-    return found if best is None else _refined(best, legs)
+    return found if best is None else _refined(best, legs, heights)
 
 
-def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
+def _others(robot: Robot, body: BodyScale, stated: bool) -> list[tuple[Robot, float]]:
     widths = [robot.stance_width]
-    if robot.stance_width > _WIDE * body.leg:
+    if robot.stance_width > _WIDE * body.leg and not stated:
         widths += [round(max(least_stance(robot), share * body.leg), 3) for share in _TRIED_STANCES]
     found = [
         (
@@ -201,7 +205,9 @@ def _bears(missed: float, knee: float, spare: Array) -> bool:
     return missed <= MISSED and knee >= _LEAST_KNEE and float(spare.min()) >= SPARE
 
 
-def _refined(best: _Tried, legs: LegModel) -> _Tried:
+def _refined(best: _Tried, legs: LegModel, heights: Array) -> _Tried:
+    if len(heights) == 1:  # it was stated
+        return best
     step = 0.5 * _LOWER * best.body.leg
     while step > 2e-3 * best.body.leg:
         near = best.robot.com_height + step * np.array([1.0, -1.0])
@@ -210,10 +216,10 @@ def _refined(best: _Tried, legs: LegModel) -> _Tried:
     return best
 
 
-def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
+def _nearest(robot: Robot, legs: LegModel, body: BodyScale, heights: Array) -> str:
     short = replace(body, leg=_SHORTER[-1] * body.leg)
     found = []
-    for height in seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -2.0 * _LOWER):
+    for height in heights[::2]:
         walk = straight_walk(_paced(robot, float(height), 1.0), short, float(height), QUICK_STEPS)
         reach = plan_reach(robot, legs, walk)
         found.append((max(reach.missed, 0.1 * max(0.0, SPARE - float(reach.spare.min()))), float(height), reach))

@@ -15,6 +15,7 @@ from plantar.errors import RobotError
 from plantar.robots.survey.leg_chains import Legs, find_legs
 from plantar.robots.survey.sole_frame import Sole, find_sole
 from plantar.robots.survey.stated_model import StatedModel, explained, named_note, read_stated_model
+from plantar.robots.survey.wishes import NO_WISHES, Wishes, found
 
 _SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
 NO_SPEED = 1e3  # rad/s: stands for no limit
@@ -56,15 +57,15 @@ class Survey:
         return str(self.source.model.body(self.legs.by_side[side].foot).name)
 
 
-def survey_model(file: Path, folder: Path) -> Survey:
-    """Returns the findings on the robot in `file`; converted meshes go to `folder`."""
-    source = read_stated_model(file, folder)
+def survey_model(file: Path, folder: Path, wishes: Wishes = NO_WISHES) -> Survey:
+    """Returns the findings on the robot in `file`; converted meshes go to `folder`; `wishes` are taken as they are."""
+    source = read_stated_model(file, folder, wishes.posture)
     model = source.model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     try:
-        legs = find_legs(model, data, str(file))
+        legs = find_legs(model, data, str(file), wishes.feet)
         left, right = (len(legs.by_side[s].joints) for s in SIDES)
         if left != right:
             raise RobotError(f"{file}: the left leg has {left} hinges, the right {right}; allowed: as many")
@@ -72,7 +73,7 @@ def survey_model(file: Path, folder: Path) -> Survey:
     except RobotError as error:
         raise explained(error, source.notes) from None
     held, held_notes = _held(source, legs)
-    imu = _lowest_imu(source, legs)
+    imu = _lowest_imu(source, legs) if wishes.imu is None else _named_imu(source, legs, wishes.imu, str(file))
     names = {s: [model.joint(j).name for j in legs.by_side[s].joints] for s in SIDES}
     pairs = list(zip(names["left"], names["right"], strict=True))
     efforts = tuple(_lesser(source.efforts, pair) for pair in pairs)
@@ -161,6 +162,17 @@ def _lowest_imu(source: StatedModel, legs: Legs) -> tuple[str, str] | None:
     model = source.model
     usable = [imu for imu in source.imus if _on_body(model, legs, imu)]
     return min(usable, key=lambda imu: _joints_between(model, _body_of_imu(model, imu), legs.pelvis), default=None)
+
+
+def _named_imu(source: StatedModel, legs: Legs, name: str, where: str) -> tuple[str, str]:
+    model = source.model
+    sites = [model.site(i).name for i in range(model.nsite)]
+    bodies = [model.body(i).name for i in range(1, model.nbody)]
+    found([*sites, *bodies], name, "--imu", where)
+    imu = ("site" if name in sites else "body", name)
+    if not _on_body(model, legs, imu):
+        raise RobotError(f"{where}: --imu names '{name}', which hangs on a leg; allowed: above the legs' joints")
+    return imu
 
 
 def _joints_between(model: Any, body: int, pelvis: int) -> int:

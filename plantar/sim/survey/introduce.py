@@ -28,10 +28,11 @@ from plantar.robots.survey.robot_text import robot_text
 from plantar.robots.survey.servo_gains import rotor_inertia
 from plantar.robots.survey.stated_model import explained
 from plantar.robots.survey.survey import Survey, survey_model
+from plantar.robots.survey.wishes import NO_WISHES, Wishes
 from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.robot_picture import draw_robot
-from plantar.sim.survey.trial_walk import push_text, trial_walk
+from plantar.sim.survey.trial_walk import TRIALS, Trial, level_trial, other_trials, push_text
 
 _SHOE_DENSITY = 15.5  # kg/m^2 of a shoe that was not built: those built for feet of 130 and 230 mm have 15.3 and 15.5
 # With 1 the soles of light feet rattle on a beam's edges: G1, two iCubs and Romeo cross it with 5 of 20 fresh seeds,
@@ -70,8 +71,7 @@ folder to write to, and the robot's mass in kg."""
 class Introduced:
     """A robot whose file was written.
 
-    `walks`: whether its trial walk completed, which alone decides; `walked`: what the check expects, and what the trial
-    missed.
+    `trials`: what its trial walks missed, which alone decides; `walked`: what the check expects, and what is missing.
     """
 
     robot: Robot
@@ -79,8 +79,18 @@ class Introduced:
     fitted: FittedGait
     shoes: ShoesMade
     files: tuple[str, ...]
-    walks: bool
+    trials: tuple[Trial, ...]
     walked: tuple[str, ...]
+
+    @property
+    def walks(self) -> bool:
+        """Whether each trial is completed."""
+        return all(trial.completed for trial in self.trials)
+
+    @property
+    def missed(self) -> tuple[str, ...]:
+        """A line for each trial that is not completed."""
+        return tuple(trial.text() for trial in self.trials if not trial.completed)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -94,6 +104,7 @@ class Introduced:
         return {
             "name": robot.name,
             "walks": self.walks,
+            "trials": [trial.as_dict() for trial in self.trials],
             "mass_kg": round(self.fitted.body.mass, 3),
             "leg_length_m": self.fitted.body.leg,
             "legs": {s: list(robot.legs[s].joints) for s in SIDES},
@@ -131,7 +142,7 @@ class Introduced:
                 f"  walks with its CoM at {robot.com_height:.3f} m, feet {robot.stance_width:.3f} m apart, "
                 f"{robot.single_support:g} + {robot.double_support:g} s a step",
                 *(f"  note: {note}" for note in self.notes),
-                *(["  its trial walk on level ground is completed"] if self.walks else []),
+                *(f"  trial {trial.text()}" for trial in self.trials),
                 f"made {file}: look at {output / 'robot.png'}, then",
                 f"  plantar robot check {file}",
                 f"  plantar sim flat --robot {file}",
@@ -144,16 +155,20 @@ def introduce(
     folder: Path,
     make_shoes: MakeShoes,
     progress: Callable[[float, str], None] | None = None,
+    wishes: Wishes = NO_WISHES,
+    trials: Sequence[str] = tuple(TRIALS),
 ) -> Introduced:
     """Write robot file, model copy, shoes and picture, and let it walk; returns robot and reasons.
 
-    The trial walk decides whether the robot is introduced: see `Introduced.walks`. What the check expects is a note.
+    Its trials decide whether the robot is introduced: see `Introduced.walks`. What the check expects is a note.
 
     Args:
         file: The model, MJCF or URDF.
         folder: Existing folder.
         make_shoes: Builds the shoes.
         progress: Gets fraction done and text.
+        wishes: What is stated instead of found.
+        trials: Names of `TRIALS`; the first is level ground.
 
     Raises:
         RobotError: If the file holds no biped; the message explains why.
@@ -163,7 +178,7 @@ def introduce(
     path = Path(file)
     with TemporaryDirectory() as scratch:
         report(0.0, "reading the model")
-        survey = survey_model(path, Path(scratch))
+        survey = survey_model(path, Path(scratch), wishes)
         name = _NO_NAME.sub("_", survey.source.name).strip("_") or "robot"
         imu = None if survey.imu is None else (*survey.imu, "imu")
         upright = write_model_copy(survey.source.model, survey.legs, folder, name, survey.held, imu)
@@ -172,7 +187,7 @@ def introduce(
     report(0.6, "fitting the walk")
     draft = _draft(survey, shoes, folder, name, upright)
     try:
-        fitted = _fitted(draft, survey.gains)
+        fitted = _fitted(draft, survey.gains, wishes)
     except RobotError as error:
         raise explained(error, survey.notes) from None
     file = folder / "robot.toml"
@@ -180,28 +195,30 @@ def introduce(
     write_text(file, text)
     _copy_licences(path, folder)
     doubts = check_robot(file, "flat").failures
-    report(0.8, "walking in simulation")
-    level, missed = trial_walk(str(file))
+    report(0.7, "walking on level ground in simulation")
+    level, first = level_trial(str(file))
     write_text(file, text + push_text(level))
     robot = load_robot(file)
+    report(0.8, "walking over a stone and a slab, and being pushed")
+    walked = (first, *other_trials(str(file), trials, first))
     report(0.9, "drawing the robot")
-    notes = [f"the check expects trouble: {doubt}" for doubt in doubts] + missed
+    notes = [f"the check expects trouble: {doubt}" for doubt in doubts]
     try:
         draw_robot(robot, folder / "robot.png")
     except _NO_OPENGL as error:
         notes.append(f"robot.png is not drawn: {one_line(error)} (set MUJOCO_GL=egl before mujoco is imported)")
     files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
-    return Introduced(robot, survey, fitted, shoes, tuple(files), not missed, tuple(notes))
+    return Introduced(robot, survey, fitted, shoes, tuple(files), walked, tuple(notes))
 
 
-def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:
-    fitted = fit_gait(draft, gains)
+def _fitted(draft: Robot, gains: Sequence[tuple[float, float]], wishes: Wishes) -> FittedGait:
+    fitted = fit_gait(draft, gains, wishes=wishes)
     assumed = rotor_inertia(fitted.inertia, fitted.body.mass, fitted.robot.com_height, CONTROL_PERIOD)
     if draft.model_file is None or not assumed.any():
         return fitted
     joints = [(name, float(v)) for s in SIDES for name, v in zip(draft.legs[s].joints, assumed, strict=True)]
     add_rotors(draft.model_file, {name: value for name, value in joints if value > 0.0})
-    return fit_gait(draft, gains, assumed)
+    return fit_gait(draft, gains, assumed, wishes)
 
 
 def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:

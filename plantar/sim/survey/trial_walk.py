@@ -1,12 +1,18 @@
-"""A new robot's first steps in simulation: what walking alone leaves to its push estimate."""
+"""A new robot's trial in simulation: level ground, a stone under a part of its sole, a slab, and a push."""
 
 import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 from plantar.common.console.ending import one_line
-from plantar.errors import PlantarError
+from plantar.errors import InputError, PlantarError
 from plantar.gait.estimate.push_estimate import PushRules
-from plantar.sim.run.runner import Simulation
+from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
+
+TRIALS: Mapping[str, str] = {"flat": "flat", "stone": "partial-third", "slab": "obstacle", "push": "push"}
+"""Scene of each trial, in their order; without level ground the others are not walked."""
 
 _STEPS = 8
 _STANDS_OUT = 1.5  # of what level ground leaves: other ground leaves more, and a push has to stand out of it
@@ -14,7 +20,36 @@ _SILENT = 90  # m/s^2, above which a push would be
 _RULES = PushRules()
 
 
-class _Trial(Simulation):
+@dataclass(frozen=True)
+class Trial:
+    """One trial.
+
+    Attributes:
+        name: Of `TRIALS`.
+        missed: What the judge missed, or why it was not walked; empty where it is completed.
+        steps: Footholds taken.
+    """
+
+    name: str
+    missed: str
+    steps: int = 0
+
+    @property
+    def completed(self) -> bool:
+        """Whether nothing was missed."""
+        return not self.missed
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain JSON values."""
+        return {"name": self.name, "scene": TRIALS[self.name], "completed": self.completed, "missed": self.missed}
+
+    def text(self) -> str:
+        """As a line."""
+        ends = f"completed, {self.steps} steps" if self.completed else f"missed {self.missed}"
+        return f"{self.name} (plantar sim {TRIALS[self.name]}): {ends}"
+
+
+class _Level(Simulation):
     """Steps on level ground; `level` is the largest disagreement of ZMP and acceleration in m/s^2."""
 
     level = 0.0
@@ -27,16 +62,51 @@ class _Trial(Simulation):
         return used
 
 
-def trial_walk(robot_file: str) -> tuple[float, list[str]]:
-    """Walk level ground; returns the largest acceleration in m/s^2 that ZMP and IMU disagreed by, and notes."""
+def trial_names(text: str) -> tuple[str, ...]:
+    """Returns the trials that a `text` names, separated by commas; level ground is always the first.
+
+    Raises:
+        InputError: If one is unknown.
+
+    Example:
+        >>> trial_names("push, stone")
+        ('flat', 'stone', 'push')
+    """
+    named = {name.strip() for name in text.split(",")}
+    unknown = sorted(named - set(TRIALS))
+    if unknown:
+        raise InputError(f"--trials names '{unknown[0]}'; allowed: {', '.join(TRIALS)}, separated by commas")
+    return tuple(name for name in TRIALS if name in named | {"flat"})
+
+
+def level_trial(robot_file: str) -> tuple[float, Trial]:
+    """Walk level ground; returns the largest acceleration in m/s^2 that ZMP and IMU disagreed by, and the trial."""
+    settings = [f"walk.steps={_STEPS}", f"push_estimate.begins={_SILENT}"]
     try:
-        trial = _Trial(load_scene("flat", [f"walk.steps={_STEPS}", f"push_estimate.begins={_SILENT}"], robot_file), 0)
+        run = _Level(load_scene("flat", settings, robot_file), 0)
     except PlantarError as error:
-        return 0.0, [f"its trial walk cannot begin: {one_line(error)}"]
-    summary = trial.run()
-    missed = ", ".join(str(reason["criterion"]) for reason in summary["reasons"])
-    level = 0.0 if summary["fell"] else trial.level  # what a fall leaves is no walk's
-    return level, [f"its first steps on level ground missed {missed} in simulation"] if missed else []
+        return 0.0, Trial("flat", f"its begin: {one_line(error)}")
+    summary = run.run()
+    level = 0.0 if summary["fell"] else run.level  # what a fall leaves is no walk's
+    return level, _judged("flat", summary)
+
+
+def other_trials(robot_file: str, names: Sequence[str], level: Trial) -> list[Trial]:
+    """Walk the trials of `names` but the first, which was `level`; all with seed 0."""
+    if not level.completed:
+        return [Trial(name, "its turn, as level ground is missed") for name in names[1:]]
+    trials = []
+    for name in names[1:]:
+        try:
+            trials.append(_judged(name, run_scene(load_scene(TRIALS[name], (), robot_file), 0)))
+        except PlantarError as error:
+            trials.append(Trial(name, f"its begin: {one_line(error)}"))
+    return trials
+
+
+def _judged(name: str, summary: Mapping[str, Any]) -> Trial:
+    missed = ", ".join(dict.fromkeys(str(reason["criterion"]) for reason in summary["reasons"]))
+    return Trial(name, missed, int(summary["steps_taken"]))
 
 
 def push_text(level: float) -> str:

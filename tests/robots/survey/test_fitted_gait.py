@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from plantar.common.settings.body_scale import BodyScale
-from plantar.errors import InputError
+from plantar.errors import InputError, RobotError
 from plantar.robots import load_robot
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.body import body_of
@@ -22,6 +22,7 @@ from plantar.robots.survey.fitted_gait import (
 )
 from plantar.robots.survey.plan_reach import plan_reach
 from plantar.robots.survey.step_search import STEP_SHARE, straight_walk
+from plantar.robots.survey.wishes import Wishes
 from plantar.robots.walk import walk_timing
 from plantar.sim.run.scene import load_scene
 
@@ -56,6 +57,14 @@ def test_weak_motors_make_a_walk_slower():
     weak = fit_gait(replace(h1, effort_limits=(51.0, 90.0, 30.0, 85.0, 25.0, 71.0)))
     assert speed(weak) < 0.9 * speed(strong)
     assert max(weak.reach.carrying / weak.robot.effort_limits) < 1.0
+
+
+def test_a_height_and_a_stance_that_are_stated_are_kept():
+    h1 = load_robot("h1")
+    found = fit_gait(h1, wishes=Wishes(height=0.78, stance=0.2)).robot
+    assert (found.com_height, found.stance_width) == (0.78, 0.2)
+    with pytest.raises(RobotError, match=r"no height of its CoM, .* nearest is a CoM at 1.200 m"):
+        fit_gait(h1, wishes=Wishes(height=1.2))
 
 
 @pytest.mark.long

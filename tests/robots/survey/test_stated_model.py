@@ -338,6 +338,21 @@ def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
     assert mass == pytest.approx(mujoco.mj_getTotalmass(mujoco.MjModel.from_xml_path(str(file))))
 
 
+def test_settings_of_another_mujoco_are_no_obstacle(tmp_path):
+    """MuJoCo 4 has no flag "sensornoise" any more, with which XBot-L ships; an unknown joint is refused as before."""
+    truth = random_biped(10, tmp_path)
+    expected = survey_model(truth.file, tmp_path)
+    text = truth.file.read_text()
+    old = '<option timestep="0.001"><flag sensornoise="enable"/></option><worldbody>'
+    truth.file.write_text(text.replace("<worldbody>", old))
+    found = survey_model(truth.file, tmp_path)
+    assert found.joint_names("left") == expected.joint_names("left")
+    assert found.mass == expected.mass
+    truth.file.write_text(text.replace("<worldbody>", '<worldbody><body><joint knee="1"/></body>'))
+    with pytest.raises(RobotError, match="Schema violation: unrecognized attribute: 'knee'"):
+        survey_model(truth.file, tmp_path)
+
+
 def test_meshes_of_a_ros_package_are_those_of_its_manifests_name(tmp_path):
     """The folder has another name, as that of a checkout has, and the mesh lies in another folder than the URDF."""
     folder = tmp_path / "checkout" / "urdf"

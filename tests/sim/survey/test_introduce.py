@@ -23,11 +23,13 @@ from plantar.robots.survey.model_copy import write_model_copy
 from plantar.robots.survey.robot_text import roll_pitch_yaw
 from plantar.robots.survey.sole_frame import rested
 from plantar.robots.survey.survey import survey_model
+from plantar.robots.survey.wishes import Wishes, feet_named
 from plantar.shoes.found_foot import shoe_for_surface, taxel_area
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.introduce import introduce
+from plantar.sim.survey.trial_walk import Trial
 
 from ...robots.survey.random_biped import random_biped
 
@@ -46,7 +48,7 @@ def made(tmp_path_factory):
     (folder / "out").mkdir()
     truth = random_biped(SEED, folder)
     (folder / "LICENSE").write_text("as you like")
-    return truth, introduce(truth.file, folder / "out", shoe_for_surface), folder / "out"
+    return truth, introduce(truth.file, folder / "out", shoe_for_surface, trials=("flat",)), folder / "out"
 
 
 def test_the_robot_file_is_read_and_its_copy_stands_by_itself(made):
@@ -247,7 +249,7 @@ def test_legs_without_ankle_roll_rock_and_walk_in_their_own_time(tmp_path):
     (tmp_path / "out").mkdir()
     truth = random_biped(NO_ANKLE_ROLL, tmp_path)
     assert len(truth.joints["left"]) == 5
-    found = introduce(truth.file, tmp_path / "out", shoe_for_surface)
+    found = introduce(truth.file, tmp_path / "out", shoe_for_surface, trials=("flat",))
     assert any("without ankle roll" in note for note in found.fitted.notes)
     file = tmp_path / "out" / "robot.toml"
     assert "level soles" not in {f.name for f in check_robot(file, "flat").findings if not f.holds}
@@ -309,12 +311,15 @@ def test_the_walk_decides_and_the_file_is_written_all_the_same(tmp_path, monkeyp
     doubts = SimpleNamespace(failures=["torque: too weak"])
     monkeypatch.setattr("plantar.sim.survey.introduce.draw_robot", no_opengl)
     monkeypatch.setattr("plantar.sim.survey.introduce.check_robot", lambda *_: doubts)
-    monkeypatch.setattr("plantar.sim.survey.introduce.trial_walk", lambda _: (0.0, ["its first steps missed fall"]))
+    monkeypatch.setattr("plantar.sim.survey.introduce.level_trial", lambda _: (0.0, Trial("flat", "fall")))
     found = introduce(truth.file, tmp_path / "out", shoe_for_surface)
     assert not found.walks
     assert found.as_dict(tmp_path)["walks"] is False
+    assert [trial["completed"] for trial in found.as_dict(tmp_path)["trials"]] == [False] * 4
+    assert found.missed[0] == "flat (plantar sim flat): missed fall"
+    assert "  trial push (plantar sim push): missed its turn" in found.text(tmp_path)
     *told, drawn = found.walked
-    assert told == ["the check expects trouble: torque: too weak", "its first steps missed fall"]
+    assert told == ["the check expects trouble: torque: too weak"]
     assert "robot.png is not drawn: no OpenGL platform" in drawn
     load_robot(tmp_path / "out" / "robot.toml")
 
@@ -350,3 +355,61 @@ def test_of_two_imus_the_one_on_the_pelvis_is_taken(tmp_path):
     spec.compile()
     truth.file.write_text(spec.to_xml())
     assert survey_model(truth.file, tmp_path).imu == ("site", "imu_in_pelvis")
+
+
+def test_an_imu_that_is_named_is_taken(tmp_path):
+    truth = random_biped(SEED, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    spec.body("trunk").add_site(name="another")
+    spec.body(truth.feet["left"]).add_site(name="on_foot")
+    spec.compile()
+    truth.file.write_text(spec.to_xml())
+    assert survey_model(truth.file, tmp_path, Wishes(imu="another")).imu == ("site", "another")
+    assert survey_model(truth.file, tmp_path, Wishes(imu="trunk")).imu == ("body", "trunk")
+    with pytest.raises(RobotError, match="names 'on_foot', which hangs on a leg"):
+        survey_model(truth.file, tmp_path, Wishes(imu="on_foot"))
+    with pytest.raises(RobotError, match="--imu names 'anothr'; the model has another"):
+        survey_model(truth.file, tmp_path, Wishes(imu="anothr"))
+
+
+def test_feet_that_are_named_are_taken(tmp_path):
+    """Arms with boxes for hands that hang lower than the feet are no legs then; without it they are refused."""
+    truth = random_biped(SEED, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    for side in (-1.0, 1.0):
+        link = spec.body("trunk")
+        for k in range(4):
+            link = link.add_body(name=f"arm_{side:g}_{k}", pos=[0.0, 2.0 * side * (k == 0), -0.5 * (k > 0)])
+            link.add_joint(name=f"arm_{side:g}_{k}_joint", axis=[0.0, 1.0, 0.0])
+            link.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.05, 0.05, 0.05], mass=0.1)
+    spec.compile()
+    truth.file.write_text(spec.to_xml())
+    feet = truth.feet["right"], truth.feet["left"]
+    found = survey_model(truth.file, tmp_path, Wishes(feet=feet))
+    assert (found.foot_name("left"), found.foot_name("right")) == (truth.feet["left"], truth.feet["right"])
+    assert found.joint_names("left") == truth.joints["left"]
+    with pytest.raises(RobotError, match="--foot names 'trunk', which 0 hinges move apart"):
+        survey_model(truth.file, tmp_path, Wishes(feet=("trunk", feet[0])))
+    with pytest.raises(InputError, match="--foot is 'a'; allowed: two names"):
+        feet_named("a")
+
+
+def test_a_posture_that_is_stated_is_held(tmp_path):
+    truth = random_biped(SEED, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    arm = spec.body("trunk").add_body(name="arm")
+    arm.add_joint(name="shoulder", axis=[0.0, 1.0, 0.0])
+    arm.add_geom(size=[0.05, 0.05, 0.05], mass=0.1)
+    size = spec.compile().nq
+    for name, angle in (("first", 0.1), ("other", 0.2)):
+        spec.add_key(name=name, qpos=[0.0] * 3 + [1.0, 0.0, 0.0, 0.0] * (size > 13) + [angle] * (size - 7))
+    truth.file.write_text(spec.to_xml())
+
+    def held(posture):
+        return survey_model(truth.file, tmp_path, Wishes(posture=posture)).held.get("shoulder", 0.0)
+
+    assert [held(None), held("other"), held("zero")] == [0.1, 0.2, 0.0]
+    assert held("shoulder=30") == pytest.approx(np.radians(30.0))
+    for wrong, words in (("third", "the model has other"), ("elbow=3", "joint 'elbow'"), ("shoulder=x", "'x'")):
+        with pytest.raises(RobotError, match=words):
+            held(wrong)
