@@ -10,7 +10,8 @@ import numpy as np
 from plantar.errors import InputError, PlantarError
 
 LARGEST = 1e100
-"""Largest absolute value of a number that has to be finite: products of a few of them are finite too."""
+"""Largest absolute value of a number that has to be finite: products of a few of them are finite too. Nature: floating
+point, whose largest number is 1.8e308: the third power is finite."""
 
 _Kind = TypeVar("_Kind")
 _Value = TypeVar("_Value")

@@ -16,7 +16,7 @@ from plantar.kernels.base.member import close_all
 
 _FLOAT = np.dtype(np.float64)
 _BOOL = np.dtype(np.bool_)
-_MANY = 4096
+_MANY = 4096  # chosen: an array up to which a whole test costs less than a sampled one; a time, no value, depends on it
 _KINDS = {"O": "objects", "U": "text", "S": "bytes", "c": "complex numbers", "m": "durations", "M": "dates"}
 _Value = TypeVar("_Value")
 

@@ -124,7 +124,7 @@ class Command(Record, frozen=True):
     footholds: tuple[FootholdFound, ...] = ()
     moved_steps: tuple[MovedStep, ...] = ()
     joint_offsets: NDArray[np.float64] | None = None
-    stiffness: float = 1.0
+    stiffness: float = 1.0  # derived: all of the motors' own
     momentum: NDArray[np.float64] = _NOTHING
     joints: JointTargets | None = None
 

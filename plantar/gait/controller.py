@@ -44,9 +44,9 @@ __all__ = ["Command", "FootTarget", "Sensors", "Start", "WalkingController"]
 _UNBOUNDED_REGION = np.empty((0, 2))  # leaves the desired ZMP free
 _NO_STEPS: tuple[MovedStep, ...] = ()
 # of a swing, after which its foot only descends
-_ARRIVED = 0.94
-_ARRIVED_SEEING = 0.75
-_BRIDGED = 0.2  # beats without encoders or IMU: a DCM that is not followed is a fifth farther off by then
+_ARRIVED = 0.94  # derived: 1 - `_END` of the swing
+_ARRIVED_SEEING = 0.75  # derived: 1 - `_EARLY_END` of the swing
+_BRIDGED = 0.2  # derived: beats without encoders or IMU: a DCM that is not followed is a fifth farther off by then
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Start:
 
     feet: Mapping[Side, Footstep]
     steps: tuple[Footstep, ...] = ()
-    time: float = 1.0
+    time: float = 1.0  # chosen: as `begin` of a walk
     commands: tuple[Proposer, ...] = ()
 
 

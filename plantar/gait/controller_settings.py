@@ -74,11 +74,11 @@ class ControllerSettings(Settings):
     com_height: float
     mass: float
     spare_crouch: float = number(0.0, "m", 0.0, 0.5)
-    period: float = number(0.005, "s", 1e-4, 0.1)
+    period: float = number(0.005, "s", 1e-4, 0.1)  # nature: K Table 1
     timing: Timing = field(default_factory=Timing)
-    swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
+    swing_height: float = share(1 / 12, "leg", 0.0, 1.0)  # nature: K Table 1, 0.05 m
     swing: SwingKind = field(default_factory=PolynomialSwing)
-    ankle_reach: float = number(1.0, "m", 0.0, 1.0)
+    ankle_reach: float = number(1.0, "m", 0.0, 1.0)  # derived: farther than any sole: no limit
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     touchdown: TouchdownGains = field(default_factory=TouchdownGains)
@@ -86,8 +86,10 @@ class ControllerSettings(Settings):
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
-    lean_reach: float = fixed(53 / 600, "leg")  # Distance in m beyond which the lean stays
-    alignment_time: float = fixed(1.21, "beat")  # Time constant in s of the command frame following real footholds
+    lean_reach: float = fixed(53 / 600, "leg")  # Distance in m beyond which the lean stays; chosen: 53 mm on h1
+    # Time constant in s of the command frame following real footholds; derived: as long as a double support, 0.3 s on
+    # h1
+    alignment_time: float = fixed(1.21, "beat")
     balance: LawGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     dcm_filter: DcmFilterRules | None = None

@@ -18,11 +18,17 @@ from plantar.geometry.enclosing import bounding_box, convex_shapes
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_ring
 
-_QUARTER = 0.5 * math.pi
-_FIRST = 32  # intervals of a quarter turn that a scan begins with
-_STARTS = 3  # local maxima of a scan that are refined
-_LOOKS = 64  # angles that a scan measures: a rectangle changes smoothly between its edges' directions
-_PROVEN = 1e-6  # share of the area that is not looked for
+_QUARTER = 0.5 * math.pi  # nature: a rectangle that is turned by a right angle is the same
+# intervals of a quarter turn that a scan begins with; chosen: more make the scan slower, not better: each interval is
+# halved where its bound asks for it
+_FIRST = 32
+# local maxima of a scan that are refined; chosen: the highest may be narrow, so more than one; tests compare with a
+# dense scan
+_STARTS = 3
+# angles that a scan measures: a rectangle changes smoothly between its edges' directions; chosen: tests hold its area
+# against the scan with bounds
+_LOOKS = 64
+_PROVEN = 1e-6  # share of the area that is not looked for; chosen: far below what taxels see of a polygon
 
 
 class Circle(NamedTuple):
@@ -140,6 +146,7 @@ def _scan(
         bound = max(bound, -(size + 0.5 * reach2 * math.sin(2.0 * half)))
         heapq.heapreplace(waiting, (bound, middle - 0.5 * half, 0.5 * half))
         heapq.heappush(waiting, (bound, middle + 0.5 * half, 0.5 * half))
+    # nature: floating point, of which a maximum is flat to the root of a rounding (1.5e-8) in its argument
     least = 1e-7 * min(1.0, best / reach2) if reach2 else math.inf
     # The area has several local maxima, of which the highest one may be narrow: each of the best is refined.
     found.sort(key=lambda f: f[1] % _QUARTER)
@@ -161,7 +168,7 @@ def _climb(
     least: float,
 ) -> tuple[float, NDArray[np.float64]]:
     """Area and corners at the local maximum near an angle."""
-    width = 0.25 * _QUARTER / _FIRST
+    width = 0.25 * _QUARTER / _FIRST  # derived: half of the half interval that the scan leaves around its best look
     while width > least:
         for turned in (angle - width, angle + width):
             trial = largest(turned)

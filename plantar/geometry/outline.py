@@ -53,6 +53,7 @@ class Outline(Rings):
             raise InputError(f"offsets of an outline are {_shortly(offsets)}; expected 0 to {len(kept)} by 3 or more")
         right = areas_of_rings(kept, offsets)
         given = array(ring_areas, "areas of an outline", (len(right),), finite=True).tolist()
+        # nature: floating point, far above a sum's roundings
         slack = 1e-9 * float(np.ptp(kept, axis=0).max()) ** 2 if len(kept) else 0.0
         if any(not abs(a - b) <= slack or b == 0.0 for a, b in zip(given, right, strict=True)):
             raise InputError(f"areas of an outline are {_shortly(given)}; those of its rings are {_shortly(right)}")
@@ -125,6 +126,7 @@ class Outline(Rings):
         this frame's origin in the other frame in m.
         """
         whole = array(rotation, "rotation", ("2 or 3", "2 or 3"), finite=True)
+        # nature: floating point of single precision, in which a file may hold a rotation
         if whole.shape not in ((2, 2), (3, 3)) or np.abs(whole).max() > 1.0 + 1e-6:
             raise InputError(f"rotation of shape {whole.shape} is none of the plane (2, 2) or of space (3, 3)")
         place = array(translation, "translation", ("2 or 3",), finite=True)

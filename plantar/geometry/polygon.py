@@ -17,8 +17,12 @@ from plantar.kernels.geometry import hull as _hull
 from plantar.kernels.geometry.clean import clean_ring, extent, turning
 from plantar.kernels.geometry.cut_cells import part_below
 
-_DENT = 1e-6  # of its hull: a polygon that lacks less than this is convex
-_NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one
+# of its hull: a polygon that lacks less than this is convex; nature: floating point of single precision, in which files
+# hold corners
+_DENT = 1e-6
+# of a polygon's extent: corners that a cut leaves nearer to each other are one; nature: floating point, five roundings
+# of 2.2e-16
+_NOISE = 1e-15
 
 
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
@@ -49,7 +53,8 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
         hull = float(_kernel.area_of(_hull.convex_hull(ring)))
         share = abs(float(_kernel.area_of(ring))) / hull if hull > 0.0 else 1.0
         size = extent(ring)
-        step = 1e-15 * float(np.abs(ring).max())  # of the coordinates
+        step = 1e-15 * float(np.abs(ring).max())  # of the coordinates; nature: floating point, five roundings
+        # derived: a strip is judged by its length as if it were a hundredth as wide
         if (1.0 - share) * hull > _DENT * (hull + 0.01 * size * size) + step * size:
             raise InputError(
                 f"polygon is not convex: {100.0 * share:.0f} % of its hull; allowed: a convex one, as of convex_hull"

@@ -14,7 +14,8 @@ from plantar.kernels.geometry.outline import EdgeTable
 __all__ = ["WELD", "EdgeTable", "cells_overlap", "edge_table"]
 
 WELD = 1e-6
-"""Corners closer than this share of a typical edge are one corner."""
+"""Corners closer than this share of a typical edge are one corner. Nature: floating point of single precision: files
+state corners to six digits."""
 
 
 def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTable | None:
@@ -45,7 +46,7 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
     start = np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp)
     after = np.arange(1, len(directed) + 1, dtype=np.intp)
     after[start[1:] - 1] = start[:-1]
-    straight = 1e-14 * float(np.ptp(xy, axis=0).max()) if len(xy) else 0.0
+    straight = 1e-14 * float(np.ptp(xy, axis=0).max()) if len(xy) else 0.0  # nature: floating point, fifty roundings
     cell = np.repeat(np.arange(len(rings)), sizes).astype(np.intp)
     twin = np.array([index.get((b, a), -1) for a, b in directed], dtype=np.intp)
     origin = np.array([a for a, _ in directed], dtype=np.intp)

@@ -45,16 +45,18 @@ DEFAULT_RANGES: Mapping[str, tuple[float, float]] = {
     "temperature": (0.0, 60.0),
     "acceleration": (-19.62, 19.62),
 }
-"""Sensing range of each modality in N, m, degC and m/s^2: 80 kg a taxel (T 4.2.1), 50 mm of proximity."""
+"""Sensing range of each modality in N, m, degC and m/s^2: 80 kg a taxel (T 4.2.1), 50 mm of proximity. Nature: T 4.2.1
+(corrected: 785 N on 691 mm2 are 1.1 MPa)."""
 
 CELL_SHAPES: tuple[str, ...] = ("hexagon", "rectangle", "polygon", "mixed")
 """What a layout's cells are; clipped cells keep the name of the whole cell."""
 
 LARGEST_COORDINATE = 50.0
-"""Largest coordinate of a layout in m: a sole in millimetres is found out, a long walkway is not."""
+"""Derived: largest coordinate of a layout in m: a sole in millimetres is found out, a long walkway is not."""
 
 DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * GRAVITY, "proximity": 0.05, "temperature": 31.0}
-"""Activation thresholds: 0.15 kg of force (T Table 2) in N, the proximity range in m, and 31 degC (T 3.3.2.1)."""
+"""Nature: activation thresholds: 0.15 kg of force (T Table 2) in N, the proximity range in m, and 31 degC (T
+3.3.2.1)."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -103,7 +105,7 @@ class SoleLayout:
     outline: NDArray[np.float64]
     ids: NDArray[np.int64]
     cell_shape: str = "hexagon"
-    cell_area: float = 691e-6
+    cell_area: float = 691e-6  # nature: T 4.2.1: 6.9 cm2
     modalities: tuple[str, ...] = ("force", "proximity")
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=lambda: dict(DEFAULT_RANGES))
     thresholds: Mapping[str, float] = field(default_factory=lambda: dict(DEFAULT_THRESHOLDS))
@@ -117,9 +119,9 @@ class SoleLayout:
         kept["neighbours"] = _index_rows("neighbours", self.neighbours)
         n = len(self.corners)
         shapes: dict[str, tuple[int | str, ...]] = {
-            "positions": (n, 3),
-            "rotations": (n, 3, 3),
-            "vertices": ("any", 3),
+            "positions": (n, 3),  # nature: points of space
+            "rotations": (n, 3, 3),  # nature: rotations of space
+            "vertices": ("any", 3),  # nature: points of space
             "areas": (n,),
             "outline": ("any", 2),
         }
@@ -194,6 +196,7 @@ class SoleLayout:
                 raise LayoutError(f"layout field 'neighbours' of taxel {i} names a taxel that does not name it back")
         rotations = np.clip(self.rotations, -2.0, 2.0)  # no rotation holds more than 1; the square stays finite
         gram = np.einsum("nij,nkj->nik", rotations, rotations) - np.eye(3)
+        # nature: floating point of single precision, in which a file may hold a rotation
         if n and (np.abs(gram).max() > 1e-6 or (np.linalg.det(rotations) < 0).any()):
             raise LayoutError("layout field 'rotations' holds a matrix that is not a rotation")
         for name in self.modalities:

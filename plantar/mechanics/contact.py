@@ -23,7 +23,7 @@ class Contact:
     position: NDArray[np.float64]
     rotation: NDArray[np.float64]
     rectangle: Rectangle
-    friction: float = 0.6
+    friction: float = 0.6  # nature: rubber on dry concrete has 0.6 to 0.85
     preferred: tuple[float, float] | None = None
 
     @property

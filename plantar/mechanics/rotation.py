@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from plantar.kernels.base.vectors import matrix, vector
 from plantar.kernels.mechanics import rotations
 
-_THREE_HALVES = 1.5 * np.eye(3)
-# Cosine below which the axis is taken from the rotation's symmetric part: its antisymmetric part vanishes there
+_THREE_HALVES = 1.5 * np.eye(3)  # nature: Newton's iteration for the nearest rotation, R (3 I - R^T R) / 2
+# derived: Cosine below which the axis is taken from the rotation's symmetric part: its antisymmetric part vanishes
+# there; at -0.9 it is still 0.4 of its largest
 _NEAR_HALF_TURN = -0.9
 
 
@@ -43,6 +44,7 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
         column = outer[:, int(np.argmax(outer.diagonal()))]
         unit = column / math.sqrt(float(column.dot(column)))
         return np.asarray(unit * math.copysign(math.atan2(sine, cosine), float(unit.dot(axis))))
+    # nature: floating point: sin a = a up to a^3 / 6, 2e-28
     return axis if sine < 1e-9 else np.asarray(axis * (math.atan2(sine, cosine) / sine))
 
 

@@ -30,9 +30,13 @@ from plantar.mechanics.contact import Contact, Contacts
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.mechanics.zmp import zmp_in_plane
 
-_ROWS = 17  # of one contact: 16 facets of the cone and the least normal force
-_RIDGE = 1e-8  # on wrenches while the violations alone are minimised
-_TRACKED = 0.005  # of the body weight (or times the unit of length): a net wrench nearer than this is tracked
+_ROWS = 17  # nature: of one contact: 16 facets of the cone and the least normal force
+# on wrenches while the violations alone are minimised; derived: eight decades below the violations' own weight of 1,
+# eight above a rounding
+_RIDGE = 1e-8
+# of the body weight (or times the unit of length): a net wrench nearer than this is tracked; chosen: a thousandth of it
+# is what `net` leaves
+_TRACKED = 0.005
 
 
 class DistributionState(StrEnum):
@@ -61,11 +65,11 @@ class DistributionWeights:
     `friction` of tangential forces and yaw moments; makes share unique.
     """
 
-    net: float = 1e4
-    ankle: float = 10.0
-    pressure: float = 0.1
-    horizontal: float = 640.0
-    friction: float = 0.01
+    net: float = 1e4  # nature: Caron et al. 2019 (T's reference 127)
+    ankle: float = 10.0  # chosen: three decades below `net`, so that the net wrench is tracked to a thousandth
+    pressure: float = 0.1  # chosen: two decades below `ankle`: feet that balance come before feet that share
+    horizontal: float = 640.0  # derived: 8^2 times `ankle`, for the eight units of length that a newton makes
+    friction: float = 0.01  # chosen: small beside all others: it only decides where they do not
 
     def __post_init__(self) -> None:
         for item in fields(self):
@@ -87,7 +91,7 @@ class WrenchShare(Record, frozen=True):
 
     def center_of_pressure(self, name: str) -> NDArray[np.float64] | None:
         """Center of pressure (2,) of a contact in its frame in m; None without load (below 1 mN)."""
-        return zmp_in_plane(self.wrenches[name], minimum_force=1e-3)
+        return zmp_in_plane(self.wrenches[name], minimum_force=1e-3)  # nature: no load, at any scale of robots
 
 
 @dataclass(frozen=True)
@@ -109,7 +113,7 @@ class _Workspace:
     """Arrays and solver for one number of contacts, filled in place."""
 
     def __init__(self, count: int, weight: float, length: float, weights: DistributionWeights) -> None:
-        n = 6 * count
+        n = 6 * count  # nature: the size of a wrench
         self.unit = np.tile(weight * np.array([1.0, 1.0, 1.0, length, length, length]), count)
         self.jacobian = np.zeros((6, n))
         self.costly = np.zeros((6, n))  # the Jacobian times the cost of the net wrench
@@ -121,7 +125,7 @@ class _Workspace:
         self.gradient = np.zeros(n)
         self.constraints = np.zeros((_ROWS * count, n))
         self.upper = np.zeros(_ROWS * count)
-        self.lower = np.full(_ROWS * count, -1e30)
+        self.lower = np.full(_ROWS * count, -1e30)  # nature: the solver's infinity
         self.contacts: list[Contact | None] = [None] * count
         self.solver: daqp.Model | None = None
         # since the solver had them: other contacts' limits, another Hessian
@@ -135,6 +139,7 @@ class _Workspace:
         """The solver with the present program."""
         if self.solver is None:
             self.solver = daqp.Model()
+            # nature: floating point: constraints are of order 1, and six decades of roundings are left
             self.solver.settings = {"primal_tol": 1e-10}
             self.solver.setup(self.hessian, self.gradient, self.constraints, self.upper, self.lower)
         elif self.limited:  # its bounds never change: only the least force differs from 0
@@ -172,8 +177,8 @@ class WrenchDistribution:
         self,
         weight: float,
         weights: DistributionWeights | None = None,
-        minimum_force: float = 15.0,
-        length: float = 0.1,
+        minimum_force: float = 15.0,  # derived: the law's `minimum_force` of the reference body, 0.0178 weight
+        length: float = 0.1,  # derived: the law's `_LENGTH` of the reference body, 1/6 leg
     ) -> None:
         if not (math.isfinite(minimum_force) and minimum_force >= 0.0):
             raise InputError(f"minimum force is {minimum_force} N; allowed: a finite value, 0 or more")
@@ -295,7 +300,7 @@ class WrenchDistribution:
 
     def _constrain(self, work: _Workspace, i: int, contact: Contact) -> None:
         """Cone, least force and costs of one contact, in the program's units."""
-        k = 6 * i
+        k = 6 * i  # nature: the size of a wrench
         row = _ROWS * i
         x0, x1, y0, y1 = contact.rectangle
         length = self.length
@@ -324,6 +329,7 @@ class WrenchDistribution:
         hessian = np.diag([_RIDGE] * n + [1.0] * m)
         widened = np.hstack([work.constraints, -np.eye(m)])  # A v - violation <= b
         violations = daqp.solve(hessian, np.zeros(n + m), widened, work.upper, work.lower)[0][n:]
+        # derived: a thousand times the solver's tolerance, so that the relaxed program has a solution
         relaxed = work.upper + np.maximum(violations, 0.0) + 1e-7
         return np.asarray(daqp.solve(work.hessian, work.gradient, work.constraints, relaxed, work.lower)[0])
 

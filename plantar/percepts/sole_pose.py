@@ -47,6 +47,7 @@ class SolePose:
             raise InputError(f"sole pose has shapes {rotation.shape} and {position.shape}; expected (3, 3) and (3,)")
         if not (is_finite(rotation) and is_finite(position)):
             raise InputError("sole pose holds a value that is not finite")
+        # nature: floating point of single precision, in which a caller may hold a rotation
         if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-6 or np.linalg.det(rotation) < 0.0:
             raise InputError("sole pose holds a matrix that is not a rotation")
         self.__dict__.update(rotation_sole_to_world=rotation, position_in_world=position)
@@ -84,7 +85,7 @@ class SolePose:
     def polygon_to_world(self, polygon: ArrayLike) -> NDArray[np.float64]:
         """Polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, from above in world (k, 2) in m."""
         given = numbers(polygon, "polygon")
-        if given.ndim == 2 and given.shape[1] == 3:
+        if given.ndim == 2 and given.shape[1] == 3:  # nature: points of space
             return self.to_world(given)[:, :2]
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 

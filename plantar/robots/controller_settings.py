@@ -24,17 +24,18 @@ from plantar.robots.robot import Robot
 from plantar.robots.walk import Control, Walk, crouch_of, walk_timing
 from plantar.sensing.link_skin import BodySkin
 
-# Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
-# little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the
+# measured: Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they
+# turn a little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the
 # side.)
 _YAW_ON_UNKNOWN_GROUND = 0.1
 
 _NO_LEGS = LegInertia()
-_QUICK_HEIGHT = 1 / 12  # Leg, clearance of the swing foot of commanded steps at most,
+# derived: Leg, clearance of the swing foot of commanded steps at most,; `swing_height` of the controller's own settings
+_QUICK_HEIGHT = 1 / 12
 # and of steps whose time is stated: in leg/pace what a knee bends of its leg's length, for clearance and for a step
-_QUICK_BEND = 0.058
-_STEP_BEND = 0.35
-_LEAST_HEIGHT = 1 / 30
+_QUICK_BEND = 0.058  # chosen: by what knees of h1 reach in quick steps
+_STEP_BEND = 0.35  # chosen: a step as long as half a leg leaves no clearance but the least
+_LEAST_HEIGHT = 1 / 30  # chosen: 20 mm on h1, twice what a swing sags below its path
 
 
 class Task(Protocol):
@@ -145,6 +146,7 @@ def com_height_of(walk: Walk, robot: Robot) -> float:
 
 def _period(control: Control) -> float:
     steps = control.period / control.physics_period
+    # nature: floating point: a quotient of decimals is whole to 1e-12
     if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
         raise SceneError(
             f"control.period is {control.period:g} s; allowed: a whole number of physics steps of "

@@ -16,14 +16,15 @@ from plantar.gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.robots.robot import Robot
 
 # Beats that the phases of a step last where neither scene nor robot states them: 0.9 and 0.3 s on a leg of 0.6 m
-_SINGLE_SUPPORT = 3.64
-_DOUBLE_SUPPORT = 1.21
+_SINGLE_SUPPORT = 3.64  # nature: T 4.4.5
+_DOUBLE_SUPPORT = 1.21  # nature: T 4.4.5
 
 # Paces that they last where a velocity is commanded, which quick steps follow soon: 0.5 and 0.1 s on h1
-_QUICK_SINGLE = 2.02
-_QUICK_DOUBLE = 0.404
+_QUICK_SINGLE = 2.02  # chosen: bounded by the knee's speed in a swing of that time
+_QUICK_DOUBLE = 0.404  # chosen: shorter, loads jump from foot to foot
 
-_LEAST_START = 0.2  # Least time in s of the first shift of the weight
+# Least time in s of the first shift of the weight; chosen: a shift that is quicker leaves the feedback no time
+_LEAST_START = 0.2
 
 _VELOCITY_UNITS = ("s", "m/s", "m/s", "rad/s")  # Units of a row of a velocity command
 
@@ -67,9 +68,9 @@ class Walk(Settings):
         until: Time at which a walk at a velocity is asked to stop.
     """
 
-    steps: int = whole(20, "steps", 0, 100000)
+    steps: int = whole(20, "steps", 0, 100000)  # chosen: by scenes and callers
     pattern: str = choice("straight", "closing", "box")
-    length: float = share(1 / 3, "leg", -0.5, 0.5)
+    length: float = share(1 / 3, "leg", -0.5, 0.5)  # nature: T 4.4.5: 20 cm on a leg of 0.6 m
     climb: float = share(0.0, "leg", -0.5, 0.5)
     sideways: float = number(0.0, "m", -0.3, 0.3)
     stance_width: float = number(0.0, "m", 0, 0.6)
@@ -77,24 +78,31 @@ class Walk(Settings):
     first: str = choice("left", "right")
     single_support: float = number(0.0, "s", 0, 10)
     double_support: float = number(0.0, "s", 0, 10)
-    swing_height: float = share(2 / 15, "leg", 0.005, 0.25)
+    swing_height: float = share(2 / 15, "leg", 0.005, 0.25)  # nature: T 4.4.5: 8 cm on a leg of 0.6 m
     lean: bool = switch(True)
+    # chosen: 30 mm on h1: less stretches knees on lower ground, more loads them
     crouch: float = share(0.05, "leg", 0, 0.15)
+    # chosen: 15 mm on h1, what ground may be higher than expected by
     approach_height: float = share(0.025, "leg", 0, 0.1)
+    # chosen: 60 mm/s on h1, twice the `speed` of a landing
     approach_speed: float = share(0.0247, "leg/beat", 0.005, 0.5)
+    # chosen: four pendulum times of sqrt(h / g), so that the first shift is quasi-static
     start: float = share(4.85, "beat", 0.2, 60)
-    end: float = share(4.04, "beat", 0.2, 60)
+    end: float = share(4.04, "beat", 0.2, 60)  # chosen: 3.5 pendulum times
     confidence: float = number(0.0, "1", 0, 1)
     yielding: float = number(0.0, "1", 0, 2)
     led: bool = switch(False)
-    transfer: float = number(1.0, "1", 0, 1)
+    transfer: float = number(1.0, "1", 0, 1)  # derived: all of it, the slowest motion of the VRP
+    # chosen: seven pendulum times, in which a walk's last error has gone or grown
     settle: float = number(2.0, "s", 0, 600)
+    # derived: the least that the CoM needs to lead (`Attributes`), and a mean of gravity
     begin: float = number(1.0, "s", 1, 60)
     velocity: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
     commands: tuple[Sequence[float | str], ...] = tables('a list of [time, forward, left, turn] or [time, "stop"]')
     wander: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    # chosen: some ten quick steps, so that a velocity is reached before the next
     change_every: float = number(6.0, "s", 0.5, 600)
-    until: float = number(10.0, "s", 0, 36000)
+    until: float = number(10.0, "s", 0, 36000)  # chosen: by scenes and callers
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -122,8 +130,11 @@ class Walk(Settings):
         if self.wander:
             wander = self._in_si([0.0, *self.wander])
             table_of([wander], 0.0)  # checks it
+            # nature: any number: it keeps these draws apart from others of the seed
             rng = np.random.default_rng([seed, 0xC0])
+            # nature: floating point: a quotient of decimals is whole to 1e-12
             count = max(1, math.ceil(self.until / self.change_every - 1e-9))
+            # nature: velocities forward, left and turning
             drawn = rng.uniform(-1.0, 1.0, (count, 3)) * np.array(wander[1:], dtype=float)
             rows = [[k * self.change_every, *velocity] for k, velocity in enumerate(drawn.tolist())]
         if not rows:
@@ -191,7 +202,8 @@ class Control(Settings):
     swing_shape: str = choice(*swing_kinds())
     drives: str = choice("servo", "own", "torque")
     joint_stiffness: float = number(0.0, "N m/rad", 0, 1e5)
-    period: float = number(0.005, "s", 0.0005, 0.05)
+    period: float = number(0.005, "s", 0.0005, 0.05)  # nature: K Table 1
+    # chosen: a fifth of the control period; a contact takes five
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")
 

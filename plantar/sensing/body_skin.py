@@ -82,6 +82,7 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
     r = numbers(positions, "positions of cells", ReadingError)
     turn = numbers(rotations, "rotations of cells", ReadingError)
     f = numbers(signal, "signals of cells", ReadingError)
+    # nature: points of space
     if r.ndim != 2 or r.shape[1] != 3 or turn.shape != (len(r), 3, 3) or f.ndim not in (1, 2) or f.shape[-1] != len(r):
         raise ReadingError(
             f"cells have positions {r.shape}, rotations {turn.shape} and signals {f.shape}; "

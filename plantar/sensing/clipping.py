@@ -16,13 +16,14 @@ from plantar.common.arrays import is_finite, numbers
 from plantar.errors import InputError
 
 # N
-_NEGLIGIBLE = 1e-12
-_LOUDEST = 1e6
-_FORCE = np.linspace(0.0, 6.0, 601)  # in sigma; above it nothing is cut off
-_MEAN = np.array(
+_NEGLIGIBLE = 1e-12  # nature: far below any sensor's noise
+_LOUDEST = 1e6  # nature: far above any sensor's noise
+# in sigma; above it nothing is cut off; nature: the normal distribution beyond 6 sigma is 1e-9
+_FORCE = np.linspace(0.0, 6.0, 601)
+_MEAN = np.array(  # nature: the mean of max(f + noise, 0) of a normal noise: f Phi(f) + phi(f)
     [0.5 * f * math.erfc(-f / math.sqrt(2.0)) + math.exp(-0.5 * f * f) / math.sqrt(2.0 * math.pi) for f in _FORCE]
 )
-# The inverse, with the tangent below the mean without load (slope 2) and itself far above.
+# nature: The inverse, with the tangent below the mean without load (slope 2) and itself far above.
 _TABLE = (np.array([0.0, *_MEAN, 1e300]), np.array([-2.0 * _MEAN[0], *_FORCE, 1e300]))
 
 
@@ -37,7 +38,8 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
     sigma = _sigma(noise)
     if sigma < _NEGLIGIBLE:
         return np.asarray(np.maximum(given, 0.0), dtype=np.float64)
-    within = np.minimum(given, 6.0 * sigma)
+    within = np.minimum(given, 6.0 * sigma)  # derived: the table's end
+    # derived: the table's end
     return np.asarray(np.where(given > 6.0 * sigma, given, sigma * np.interp(within / sigma, _FORCE, _MEAN)))
 
 

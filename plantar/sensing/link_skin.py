@@ -26,8 +26,8 @@ class SkinPatch:
     positions: NDArray[np.float64]
     rotations: NDArray[np.float64]
     areas: NDArray[np.float64]
-    force_threshold: float = 0.15
-    proximity_range: float = 0.05
+    force_threshold: float = 0.15  # chosen: above the drift of a cell, below the touch of a finger
+    proximity_range: float = 0.05  # nature: T 4.2.1
     neighbours: tuple[tuple[int, ...], ...] = ()
 
     def __post_init__(self) -> None:
@@ -40,6 +40,7 @@ class SkinPatch:
             raise LayoutError(f"{where} has no taxels; it needs one at least")
         if not (areas > 0.0).all():
             raise LayoutError(f"{where}: an area is {areas.min():g} m^2; allowed: above 0")
+        # nature: floating point of single precision, in which a file may hold a rotation
         if not np.allclose(rotations @ rotations.transpose(0, 2, 1), np.eye(3), atol=1e-6):
             raise LayoutError(f"{where}: a rotation is not orthonormal")
         for label, value, unit in (

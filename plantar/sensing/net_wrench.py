@@ -27,8 +27,8 @@ class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("
         proximity_force: w_prox: force in N of taxel at distance 0: 1 N in K Table 1, at 86 kg; 0 counts contact alone.
     """
 
-    near: float = number(0.05, "1", 0, 1)
-    proximity_force: float = share(0.00119, "weight", 0, 100)
+    near: float = number(0.05, "1", 0, 1)  # nature: K Table 1
+    proximity_force: float = share(0.00119, "weight", 0, 100)  # nature: K Table 1
 
 
 class NetWrench(NamedTuple):

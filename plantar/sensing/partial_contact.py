@@ -23,13 +23,20 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask, taxel_values
 from plantar.sensing.proximity import cells_polygon
 
-_MOST_EDGES = 4
-_WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
-_RANGE = 0.38  # of a cell's size, prior spread of an edge about where the cells' corners put it
-_TURNS = np.linspace(-0.5, 0.5, 41)  # rad, turns that are tried of a line between cells
+_MOST_EDGES = 4  # nature: the sides of a rectangle: more edges of a foothold are not told apart by taxels
+# chosen: of the strongest neighbour's pressure: a cell with less is cut by an edge; half a cell carries half, a
+# crosstalk of 10 % a twentieth
+_WEAK = 0.4
+# chosen: of a cell's size, prior spread of an edge about where the cells' corners put it; a uniform place in a cell of
+# size 1 has 0.29, its corners 0.5
+_RANGE = 0.38
+# rad, turns that are tried of a line between cells; chosen: half a radian either side in steps of 0.025, a tenth of
+# `_TURN`'s spread
+_TURNS = np.linspace(-0.5, 0.5, 41)
 _COS = np.cos(_TURNS)
 _SIN = np.sin(_TURNS)
-_TURN = math.radians(12.0)  # prior spread of its direction
+# chosen: prior spread of its direction; a row of five cells whose ends are uncertain by half a cell turns by 0.2 rad
+_TURN = math.radians(12.0)
 
 
 @dataclass(frozen=True)
@@ -105,21 +112,23 @@ class PartialContact:
     ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """Pressure (3,) a, b, c of a load on covered cells, and the pressed cells (n,)."""
         area = measure[:, 0]
-        on = area > 1e-3 * self.layout.cell_area
+        on = area > 1e-3 * self.layout.cell_area  # derived: a cell that is covered by less carries less than its noise
         if not on.any() or not load > 0.0:
             return np.zeros(3), np.zeros(len(area), dtype=bool)
         covered = on
         place = np.zeros_like(measure)
         place[on] = measure[on] / area[on, None]
-        # The resultant cannot leave the cells' centres: a load on the rim goes to the outermost of them.
+        # The resultant cannot leave the cells' centres: a load on the rim goes to the outermost of them; derived: a
+        # tenth of a taxel: a load just at the rim makes the field steep
         inside = closest_point(inner_offset(convex_hull(place[on, 1:]), 2e-3), center_of_pressure)
         x, y = (center_of_pressure if inside is None else inside).tolist()
         wanted = load * np.array([1.0, x, y])
         field: NDArray[np.float64] = np.zeros(3)
         for _ in range(12):
             normal = measure[on].T @ place[on]
+            # nature: floating point: a ridge of the root of a rounding keeps the matrix regular
             normal.ravel()[::4] *= 1.0 + 1e-9
-            normal.ravel()[::4] += 1e-15
+            normal.ravel()[::4] += 1e-15  # nature: floating point: the same where the trace is 0
             field = np.asarray(np.linalg.solve(normal, wanted), dtype=np.float64)
             positive = covered & (place @ field > 0.0)
             if not positive.any() or bool((positive == on).all()):
@@ -188,7 +197,7 @@ class PartialContact:
         normal = np.column_stack([after[:, 1], -after[:, 0]]) / weight[:, None]
         height = (inner @ normal.T).max(axis=0)  # of the outermost supported centre
         place = outer @ normal.T
-        beyond = place > height + 0.1 * self._cell
+        beyond = place > height + 0.1 * self._cell  # chosen: a tenth of a cell, about the error of a fitted edge
         left = np.ones(len(outer), dtype=bool)
         chosen: list[tuple[float, float, float]] = []
         while (beyond[left].any()) and len(chosen) < _MOST_EDGES:
@@ -199,6 +208,7 @@ class PartialContact:
             ways = np.column_stack([_COS, _SIN]) * normal[best, 0] + np.column_stack([-_SIN, _COS]) * normal[best, 1]
             low = (inner @ ways.T).max(axis=0)
             high = (side @ ways.T).min(axis=0)
+            # derived: it only decides between equals: the least turn
             widest = int(np.argmax(high - low - 1e-3 * self._cell * np.abs(_TURNS)))
             chosen.append((*ways[widest].tolist(), 0.5 * float(low[widest] + high[widest])))
         return np.array(chosen).reshape(-1, 3)
@@ -246,7 +256,7 @@ class PartialContact:
         along = -lines[:, 1] * mx + lines[:, 0] * my  # place along each edge, from the foot of the origin's normal
         rate = np.where(on[:, None], length * np.maximum(pressure, 0.0), 0.0)
         # An edge turns about the middle of its chords, so that distance and direction do not mix.
-        weight = rate.sum(axis=0) + 1e-12
+        weight = rate.sum(axis=0) + 1e-12  # nature: floating point: 0 / 0 is 0
         pivot = (rate * along).sum(axis=0) / weight
         jacobian = np.hstack([basis, rate, rate * (pivot - along)]) / noise
         target = np.zeros(3 + 2 * m)
@@ -255,6 +265,7 @@ class PartialContact:
         spread = _RANGE * self._cell
         prior = np.concatenate(
             [
+                # nature: floating point: a ridge that keeps the matrix regular
                 np.full(3, 1e-9 * np.trace(normal) / noise**2 + 1e-12),
                 np.full(m, spread**-2),
                 np.full(m, _TURN**-2),
@@ -270,6 +281,7 @@ class PartialContact:
         inverse = np.linalg.inv(hessian + np.diag(prior))
         step = inverse @ (gradient + prior * target)
         move = np.clip(step[3 : 3 + m], -0.5 * self._cell, 0.5 * self._cell)
+        # chosen: a step of the iteration, a fifth of a radian: the model is linear so far
         angle = np.clip(step[3 + m :], -0.2, 0.2)
         c = np.cos(angle)
         s = np.sin(angle)

@@ -79,6 +79,7 @@ class Reading(ReadingFields):
             values,
             None if proximity is None else _field("proximity", proximity, shape),
             None if temperature is None else _field("temperature", temperature, shape),
+            # nature: vectors of space
             None if acceleration is None else _field("acceleration", acceleration, (*shape, 3)),
         )
 

@@ -12,7 +12,8 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames
 from plantar.sensing.proximity import proximity_measure
 
-_CHUNK = 1024  # Frames that are worked on at once
+# Frames that are worked on at once; chosen: 1024 frames of 42 taxels fit the cache; a time alone depends on it
+_CHUNK = 1024
 
 
 def virtual_ground_reaction_wrench(
@@ -92,8 +93,8 @@ class SoleWrenchSwitch:
 
         NaN or inf counts as zero; InputError unless 6 numbers.
         """
-        carried = _finite(contact, (6,))
-        foreseen = _finite(virtual, (6,))
+        carried = _finite(contact, (6,))  # nature: the size of a wrench
+        foreseen = _finite(virtual, (6,))  # nature: the size of a wrench
         force = math.hypot(*carried[:3].tolist())
         self.landed = force > (self.release if self.landed else self.threshold)
         return carried if self.landed else carried + foreseen

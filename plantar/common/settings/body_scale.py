@@ -23,7 +23,7 @@ class _Symbol(NamedTuple):
     si: str = ""
 
 
-_SYMBOLS: dict[str, _Symbol] = {
+_SYMBOLS: dict[str, _Symbol] = {  # nature: exponents of kg, m and s in each unit
     "1": _Symbol((0, 0, 0)),
     "rad": _Symbol((0, 0, 0)),
     "kg": _Symbol((1, 0, 0)),
@@ -98,7 +98,7 @@ class BodyScale:
     leg: float
     sole: float
     sole_width: float
-    pace_beats: float = 1.0
+    pace_beats: float = 1.0  # nature: a pace is a beat where motors are as quick as those of others
 
     def __post_init__(self) -> None:
         for name, value in self.__dict__.items():
@@ -129,7 +129,8 @@ class BodyScale:
 
 
 REFERENCE_BODY = BodyScale(mass=86.0, leg=0.6, sole=0.25, sole_width=0.159)
-"""The body that settings count for as long as nobody says which it is: the robot `h1`."""
+"""The body that settings count for as long as nobody says which it is: the robot `h1`. Nature: the robot `h1` of T and
+K, as its file states it."""
 
 
 @dataclass(frozen=True)

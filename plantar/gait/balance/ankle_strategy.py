@@ -17,12 +17,14 @@ from plantar.common.settings.schema import number as number_setting
 from plantar.geometry.polygon import closest_point
 
 SHORTEST_TIME = 1e-6
-"""Time in s in which the DCM shall reach its target at least."""
+"""Time in s in which the DCM shall reach its target at least. Derived: 1/5000 of a control period, so that no division
+by it overflows."""
 
 MOST_GROWTH = 100.0
-"""Largest exponent w t: a nanometre that has grown by e^100 is 1e34 m, so no two differ beyond it, and no
+"""Derived: largest exponent w t: a nanometre that has grown by e^100 is 1e34 m, so no two differ beyond it, and no
 product of a few such numbers overflows."""
 
+# nature: ten nodes integrate polynomials up to order 19, here the last digit of the pull where w t < 3
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 
 
@@ -38,8 +40,8 @@ class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment":
     """
 
     law: str = choice("tracking", "regulation")
-    forward: float = number_setting(0.5, "1", 0, 1)
-    sideways: float = number_setting(0.8, "1", 0, 1)
+    forward: float = number_setting(0.5, "1", 0, 1)  # nature: K Table 1
+    sideways: float = number_setting(0.8, "1", 0, 1)  # nature: K Table 1
     confident: bool = switch(True)
 
 
@@ -177,7 +179,7 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
     """
     rate = 0.5 * math.pi / duration
     half = math.sin(0.5 * rate * left) ** 2
-    if omega * left < 3.0:
+    if omega * left < 3.0:  # derived: the closed form loses e^-3 of its digits there, below it more
         # The closed form below cancels its digits here, and ten nodes integrate the smooth integrand to the last.
         rest = 0.5 * left * (1.0 - _NODES)
         total = float(_WEIGHTS @ (np.exp(-omega * (left - rest)) * np.sin(0.5 * rate * rest) ** 2))

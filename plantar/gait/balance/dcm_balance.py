@@ -15,10 +15,12 @@ from plantar.gait.balance.load_transfer import transferred
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import ComAdmittance, DcmFeedback
 
-_LARGEST_OFFSET = 0.5  # leg that the CoM's reference may be off its plan: no foot reaches both from there
-_HELD = 0.22  # sole that ankles move the ZMP by: half a sole's width less the margin; beyond, the CoM goes along
-_PRESS = 0.5  # 1/beat at which it then brings the ZMP to the desired one; four times that rattles
-_ZMP_SHARE = 0.3  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
+_LARGEST_OFFSET = 0.5  # derived: leg that the CoM's reference may be off its plan: no foot reaches both from there
+# derived: sole that ankles move the ZMP by: half a sole's width less the margin; beyond, the CoM goes along
+_HELD = 0.22
+_PRESS = 0.5  # measured: 1/beat at which it then brings the ZMP to the desired one; four times that rattles
+# measured: of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
+_ZMP_SHARE = 0.3
 
 
 class BalanceGains(LawGains):
@@ -30,10 +32,12 @@ class BalanceGains(LawGains):
         com_gain: k_x of T 4.29 in 1/s: the CoM reference returns to the plan.
     """
 
-    dcm_gain: float = share(0.371, "1/beat", 0, 50)
-    zmp_gain: float = share(0.124, "1/beat", 0, 50)
-    com_gain: float = share(0.247, "1/beat", 0, 50)
-    zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
+    dcm_gain: float = share(0.371, "1/beat", 0, 50)  # nature: T Table 2, 1.5 1/s
+    zmp_gain: float = share(0.124, "1/beat", 0, 50)  # nature: T Table 2, 0.5 1/s
+    com_gain: float = share(0.247, "1/beat", 0, 50)  # nature: T Table 2, 1 1/s
+    # Low-pass time constant in s of the ZMP error; chosen: 20 ms, between the delay of sensors and the 0.28 s of the
+    # pendulum
+    zmp_filter: float = fixed(0.0809, "beat")
 
     def law(self, omega: float, mass: float, period: float) -> BalanceLaw:
         """DCM feedback with CoM admittance."""

@@ -23,13 +23,17 @@ class AdmittanceGains(Settings):
         foot_return: Decay in 1/s of a standing foot's corrections.
     """
 
+    # chosen: bounded by the delay of sensors and drives, 20 ms, with which a stiffer sole swings
     foot_turn_gain: float = share(0.0521, "rad/beat/weight/sole", 0, 1)
-    foot_lift_gain: float = share(0.00695, "leg/beat/weight", 0, 0.1)
-    foot_return: float = share(0.247, "1/beat", 0, 100)
-    foot_release: float = fixed(1.98, "1/beat")  # Rate in 1/s at which they do in the air
-    foot_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the measured wrench
-    largest_turn: ClassVar[float] = 0.08  # Largest turn about an axis in rad
-    largest_lift: float = fixed(1 / 30, "leg")  # Largest shift in m
+    foot_lift_gain: float = share(0.00695, "leg/beat/weight", 0, 0.1)  # chosen: bounded likewise
+    foot_return: float = share(0.247, "1/beat", 0, 100)  # derived: as T Table 2's return of the CoM, 1 1/s
+    # Rate in 1/s at which they do in the air; chosen: gone in a third of a swing
+    foot_release: float = fixed(1.98, "1/beat")
+    # Low-pass time constant in s of the measured wrench; derived: as `zmp_filter`
+    foot_filter: float = fixed(0.0809, "beat")
+    # Largest turn about an axis in rad; chosen: 4.6 degrees; soles that turn farther stand on their edges
+    largest_turn: ClassVar[float] = 0.08
+    largest_lift: float = fixed(1 / 30, "leg")  # Largest shift in m; chosen: 20 mm on h1
 
 
 class FootAdmittance:

@@ -109,7 +109,8 @@ class LawGains(Part, table="balance"):
     Laws of other packages use the entry points "plantar.balance_laws".
     """
 
-    # Inner offset in m that the desired ZMP keeps from the support polygon's edge
+    # Inner offset in m that the desired ZMP keeps from the support polygon's edge; chosen: 15 mm of 250: more takes the
+    # room to balance, less lets noise of the ZMP reach the edge
     zmp_offset: float = fixed(0.06, "sole")
 
     def law(self, omega: float, mass: float, period: float) -> BalanceLaw:

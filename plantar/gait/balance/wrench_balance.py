@@ -25,7 +25,8 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
 
 _NO_WRENCH = np.zeros(6)
-_LENGTH = 1 / 6  # leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m
+# derived: leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m
+_LENGTH = 1 / 6
 
 
 class WrenchBalanceGains(LawGains):
@@ -38,11 +39,14 @@ class WrenchBalanceGains(LawGains):
         feet: Admittance of the feet.
     """
 
+    # chosen: 3 1/s, twice T Table 2's; the distribution has no ZMP feedback of its own
     dcm_gain: float = share(0.742, "1/beat", 0, 50)
     zmp_gain: float = number(0.0, "1/s", 0, 50)
-    com_gain: float = share(0.247, "1/beat", 0, 50)
-    zmp_filter: float = fixed(0.0809, "beat")  # Low-pass time constant in s of the ZMP error
-    minimum_force: float = fixed(0.0178, "weight")  # Normal force in N of a standing foot
+    com_gain: float = share(0.247, "1/beat", 0, 50)  # nature: T Table 2, 1 1/s
+    # Low-pass time constant in s of the ZMP error; derived: as of `BalanceGains`
+    zmp_filter: float = fixed(0.0809, "beat")
+    # Normal force in N of a standing foot; chosen: 15 N on h1, above the noise of a sole's sum
+    minimum_force: float = fixed(0.0178, "weight")
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
 
     def law(self, omega: float, mass: float, period: float) -> BalanceLaw:

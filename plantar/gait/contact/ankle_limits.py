@@ -13,11 +13,12 @@ from plantar.common.arrays import own
 from plantar.gait.contact.standing_leg import StandingLeg
 from plantar.geometry.polygon import area, centroid, closest_point, inner_offset, part_inside
 
-# Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback
+# chosen: Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback
 _SHARE = 0.95
 UPRIGHT = own(np.zeros(2))
 """A sole's lean on the level."""
-_ANYWHERE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])  # m around an ankle: farther than soles go
+# derived: m around an ankle: farther than soles go
+_ANYWHERE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
 class AnkleLimits:
@@ -87,7 +88,7 @@ class AnkleLimits:
         region, or the nearest place with the margin: over an edge the robot falls, at a joint's limit it only sinks.
         """
         reached = self._cut(polygon, lean, risen)
-        if area(reached) >= area(polygon) * (1.0 - 1e-9):
+        if area(reached) >= area(polygon) * (1.0 - 1e-9):  # nature: floating point, far above an area's roundings
             return center
         kept = inner_offset(polygon, self._margin)
         left = self._cut(kept, lean, risen)

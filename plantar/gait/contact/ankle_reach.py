@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from plantar.geometry.polygon import area, centroid, closest_point, part_inside
 
-_HALF = 0.5  # of an ankle's torque, which the other half is to balance with
+_HALF = 0.5  # derived: of an ankle's torque, which the other half is to balance with
 
 
 def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:

@@ -32,7 +32,7 @@ class ContactMemory:
         least_force: float,
         gap: float,
         least_share: float = 0.5,
-        smoothing: float = 0.3,
+        smoothing: float = 0.3,  # derived: `smoothing` of the contact's settings
     ) -> None:
         self._places = layout.positions[:, :2]
         self._touches = np.zeros(len(self._places), dtype=bool)

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 
-_SPREAD = 0.012  # of a sole's length, standard deviation of an edge's place: 3 mm of a sole of 250 mm
-_TURN = 0.05  # rad, that of its direction
-_PARALLEL = 0.2  # rad within which two lines may be the same edge
-_AGREEMENT = 0.1  # of a sole's length from each other, at which they are not
+_SPREAD = 0.012  # chosen: of a sole's length, standard deviation of an edge's place: 3 mm of a sole of 250 mm
+_TURN = 0.05  # chosen: rad, that of its direction
+_PARALLEL = 0.2  # derived: rad within which two lines may be the same edge; four of `_TURN`
+_AGREEMENT = 0.1  # derived: of a sole's length from each other, at which they are not; eight of `_SPREAD`
 
 
 class _Edge(NamedTuple):
@@ -40,6 +40,7 @@ class _Foothold:
 class EdgeMemory:
     """Edges under the last footholds."""
 
+    # chosen: a sum of five has half the spread of one; more would hold on to a stone that is passed
     def __init__(self, body: BodyScale = REFERENCE_BODY, memory: int = 5) -> None:
         self._spread = _SPREAD * body.sole
         self._agreement = _AGREEMENT * body.sole

@@ -24,11 +24,19 @@ from plantar.mechanics.rotation import level_rotation
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 
-_FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
-_LEANS = 0.05  # rad from which a sole on a slope moves its ankle by more than encoders err
-_ASIDE = 0.5  # of the room around the best place by torques in which a whole sole keeps its middle
+# chosen: steps after which a foothold that carried a part of the sole is no evidence of the ground ahead; two steps of
+# each foot
+_FORGETS = 4
+# chosen: rad from which a sole on a slope moves its ankle by more than encoders err; ten times the largest error of an
+# encoder's zero
+_LEANS = 0.05
+# chosen: of the room around the best place by torques in which a whole sole keeps its middle; bounded by 0, where any
+# sole is moved, and 1, where its edge holds it
+_ASIDE = 0.5
 _STANDING: dict[Side | None, tuple[Side, ...]] = {None: SIDES, "left": ("right",), "right": ("left",)}  # by swing
-_NARROW = 0.5  # of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP
+# chosen: of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP; bounded by 0, where
+# noise reaches the edge, and 1
+_NARROW = 0.5
 
 
 def middle_of_sole(
@@ -62,6 +70,7 @@ def _loaded(
 def on_its_hull(layout: SoleLayout) -> SoleLayout:
     """Returns the `layout` with its outline's convex hull, which carries a rigid sole."""
     hull = convex_hull(layout.outline)
+    # nature: floating point, far above an area's roundings
     return layout if area(layout.outline) >= (1.0 - 1e-9) * area(hull) else replace(layout, outline=hull)
 
 

@@ -18,14 +18,18 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 
-_LARGEST_BIAS_STEP = 0.0025  # leg that one touch changes the bias by: more is ground that moved
-_NEAR_TOUCH = 0.025  # leg that the ground may seem away at a touch for the bias to learn from it
-_EVEN = 0.9  # share of the taxels that see ground which lies on a plane where all of it is one
-_LIFTED_OFF = 1 / 120  # leg that a sole has risen when it is compared with the distance it sees
-_LEAST_NOISE = 1 / 300  # leg: standard deviation of a taxel's distance that is expected at least
-_NOISE_SHARE = 0.02  # share of a reading in what is known of that
-_LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
-_REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
+_LARGEST_BIAS_STEP = 0.0025  # chosen: leg that one touch changes the bias by: more is ground that moved
+_NEAR_TOUCH = 0.025  # chosen: leg that the ground may seem away at a touch for the bias to learn from it
+_EVEN = 0.9  # chosen: share of the taxels that see ground which lies on a plane where all of it is one
+_LIFTED_OFF = 1 / 120  # chosen: leg that a sole has risen when it is compared with the distance it sees
+# derived: leg: standard deviation of a taxel's distance that is expected at least; 2 mm on h1, the noise of a reading
+# in a scene
+_LEAST_NOISE = 1 / 300
+_NOISE_SHARE = 0.02  # chosen: share of a reading in what is known of that; fifty readings, a fifth of a second
+_LEAST_BIAS = 0.75  # chosen: standard deviations of a taxel's distance that noise cannot make of that
+# chosen: control ticks for which poses are kept, for readings that are late; 60 ms at 200 Hz, six times the delay of
+# drawn sensors
+_REMEMBERED = 12
 
 
 class GroundMapSettings(
@@ -40,14 +44,22 @@ class GroundMapSettings(
     """
 
     orientation: str = choice("plane", "moment")
-    sensing_range: float = share(1 / 12, "leg", 0.005, 0.5)
-    largest_slope: ClassVar[float] = 0.25  # Slope in rad beyond which the sole does not follow the ground
-    follow_taxels: ClassVar[int] = 10  # Number of taxels that must lie on a slope for the sole to follow it
-    readings: ClassVar[int] = 60  # Number averaged while the sole stands still
-    readings_moving: ClassVar[int] = 5  # The same while it moves fast
-    still: float = share(1 / 6000, "leg", 1e-06, 0.01)
-    jump: ClassVar[float] = 6.0  # Difference from the map, in standard deviations, that shows moved ground
-    jump_of_all: ClassVar[float] = 1.5  # The same for the mean of all taxels, which is less noisy
+    sensing_range: float = share(1 / 12, "leg", 0.005, 0.5)  # nature: T 4.2.1, 50 mm on h1
+    # Slope in rad beyond which the sole does not follow the ground; chosen: 14 degrees
+    largest_slope: ClassVar[float] = 0.25
+    # Number of taxels that must lie on a slope for the sole to follow it; chosen: a quarter of 42: fewer lie in a
+    # corner
+    follow_taxels: ClassVar[int] = 10
+    # Number averaged while the sole stands still; chosen: 60 readings, 0.24 s: the noise of 2 mm becomes 0.26 mm
+    readings: ClassVar[int] = 60
+    # The same while it moves fast; chosen: five readings, 20 ms, in which a descending foot moves by a millimetre
+    readings_moving: ClassVar[int] = 5
+    still: float = share(1 / 6000, "leg", 1e-06, 0.01)  # chosen: 0.1 mm a tick, 20 mm/s
+    # Difference from the map, in standard deviations, that shows moved ground; nature: one normal value in 5e8 is
+    # farther off
+    jump: ClassVar[float] = 6.0
+    # The same for the mean of all taxels, which is less noisy; chosen: the mean of 42 has 0.15 by noise, ten times less
+    jump_of_all: ClassVar[float] = 1.5
 
 
 class GroundView(Record, frozen=True):

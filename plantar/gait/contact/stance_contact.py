@@ -21,9 +21,10 @@ from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading
 
 _NO_LINES = read_only(np.empty((0, 3)))
-_DENIALS = 3  # times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
-_IN_SIGHT = 1.5  # times a step down, below the range's end, from where a sole's sight of the ground counts
-_BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that rises: what still lies under it
+# chosen: times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
+_DENIALS = 3
+_IN_SIGHT = 1.5  # chosen: times a step down, below the range's end, from where a sole's sight of the ground counts
+_BESIDE = 0.3  # chosen: of a taxel's size from where the load is, towards the side that rises: what still lies under it
 
 
 class ContactSettings(Part, table="contact", needs={"control.footholds": ("force", "skin")}):
@@ -38,42 +39,59 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
             active taxels, as printed (T 4.22, 4.24), by thresholds from their noise.
     """
 
-    minimum_load: float = fixed(0.107, "weight")  # Vertical force in N from which taxels count
-    settle_readings: ClassVar[int] = 3  # Readings with that load before the contact polygon counts
-    taxel_noise: float = fixed(0.00178, "weight")  # Standard deviation of a taxel's noise in N
+    # Vertical force in N from which taxels count; chosen: 90 N on h1: a sole that carries less may lie on one edge
+    minimum_load: float = fixed(0.107, "weight")
+    # Readings with that load before the contact polygon counts; chosen: 12 ms: a touch's first readings come one after
+    # the other
+    settle_readings: ClassVar[int] = 3
+    # Standard deviation of a taxel's noise in N; nature: the noise of a taxel in a scene, 1.5 N on h1
+    taxel_noise: float = fixed(0.00178, "weight")
     # Share of a new reading in the running mean that decides whether a taxel has carried
-    smoothing: ClassVar[float] = 0.3
-    forgetting: ClassVar[float] = 0.92  # Share of the old in the running sum that edges are fitted to
+    smoothing: ClassVar[float] = 0.3  # chosen: three readings, 12 ms
+    # Share of the old in the running sum that edges are fitted to; chosen: twelve readings, 50 ms
+    forgetting: ClassVar[float] = 0.92
     # Force in N that the ground believed in would put on a taxel, from which its silence counts
-    least_expected: float = fixed(0.00593, "weight")
-    least_share: ClassVar[float] = 0.3  # Share of that force below which a taxel is silent
-    # Depth in m below the nearest ground from which a taxel has no ground to stand on
+    least_expected: float = fixed(0.00593, "weight")  # derived: 3.3 of `taxel_noise`
+    # Share of that force below which a taxel is silent; chosen: bounded by a taxel's gain and noise
+    least_share: ClassVar[float] = 0.3
+    # Depth in m below the nearest ground from which a taxel has no ground to stand on; chosen: 12 mm on h1: six times
+    # the noise of a distance, below the thickness of a stone
     step_down: float = fixed(0.02, "leg")
-    deep: float = fixed(1 / 12, "leg")  # Depth in m for all deeper or out of range
-    sight: ClassVar[float] = 0.3  # Share of a new reading in the running mean of what is seen
-    least_seen: ClassVar[int] = 4  # Number of taxels that have to see ground
+    # Depth in m for all deeper or out of range; derived: the range of T 4.2.1: farther is not seen
+    deep: float = fixed(1 / 12, "leg")
+    sight: ClassVar[float] = 0.3  # Share of a new reading in the running mean of what is seen; derived: as `smoothing`
+    # Number of taxels that have to see ground; derived: three span a plane, one more tells its error
+    least_seen: ClassVar[int] = 4
     # Distance in m of the load from the believed polygon's edge, from which silence counts
-    least_margin: float = fixed(0.12, "sole")
+    least_margin: float = fixed(0.12, "sole")  # chosen: 30 mm of 250, a taxel's width and a half
     # Share of the load that silent taxels should carry, from which the belief is wrong
-    least_wrong: ClassVar[float] = 0.1
-    level: float = number(1.5e-4, "rad", 0, 0.5)
-    least_force: float = fixed(0.00415, "weight")  # Running mean in N of a taxel that carried
-    # Share of the strongest neighbor's force that its cover can cause; 10 % crosstalk makes a twentieth at a straight
-    # edge
+    least_wrong: ClassVar[float] = 0.1  # chosen: bounded by what gains and noise leave
+    level: float = number(1.5e-4, "rad", 0, 0.5)  # chosen: above the noise of a levelled sole
+    # Running mean in N of a taxel that carried; derived: 5.6 standard deviations of that mean, by `taxel_noise` and
+    # `smoothing`
+    least_force: float = fixed(0.00415, "weight")
+    # derived: Share of the strongest neighbor's force that its cover can cause; 10 % crosstalk makes a twentieth at a
+    # straight edge
     least_beside: ClassVar[float] = 0.08
-    model_error: float = number(0.1, "1", 0, 1)
-    full_ratio: ClassVar[float] = 0.93  # Share of the sole from which on the contact polygon counts as the whole sole
-    fit_every: ClassVar[int] = 8  # Readings between two fits of a contact polygon that has settled
+    model_error: float = number(0.1, "1", 0, 1)  # chosen: about the spread of taxels' gains
+    # Share of the sole from which on the contact polygon counts as the whole sole; chosen: half a row of 42 taxels at
+    # one side are missing
+    full_ratio: ClassVar[float] = 0.93
+    # Readings between two fits of a contact polygon that has settled; chosen: 32 ms; a time above all depends on it
+    fit_every: ClassVar[int] = 8
     # Vertical force in N from which the foot stands and its loads show the edges
-    standing_load: float = fixed(0.533, "weight")
+    standing_load: float = fixed(0.533, "weight")  # chosen: more than half of the weight: the other foot carries less
     # Readings of the ground from which a foothold is planned with before the foot is on it
-    foresee_readings: ClassVar[int] = 6
-    foresee_reach: float = fixed(0.06, "sole")  # Distance in m that the foot may still have to go for that
+    foresee_readings: ClassVar[int] = 6  # chosen: 24 ms
+    # Distance in m that the foot may still have to go for that; chosen: 15 mm on h1, of an edge that is known to half a
+    # cell
+    foresee_reach: float = fixed(0.06, "sole")
     # Time in s before the planned touchdown from which it is too late for that
-    foresee_least: float = fixed(0.283, "beat")
+    foresee_least: float = fixed(0.283, "beat")  # chosen: 70 ms on h1
     remember: bool = switch(True)
     fit: bool = switch(True)
-    watch: float = fixed(0.607, "beat")  # Time in s into single support until which it is refined
+    # Time in s into single support until which it is refined; chosen: 0.15 s on h1, a sixth of a single support
+    watch: float = fixed(0.607, "beat")
 
 
 class StanceContact:
@@ -294,7 +312,7 @@ class StanceContact:
 
     def _over(self, lines: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Taxels (n,) partly within lines."""
-        # Half the width of a hexagonal cell, which is 1.07 to 1.24 sqrt(A) for an area A.
+        # derived: Half the width of a hexagonal cell, which is 1.07 to 1.24 sqrt(A) for an area A.
         reach = 0.6 * math.sqrt(self.layout.cell_area)
         return np.asarray((self.layout.positions[:, :2] @ lines[:, :2].T < lines[:, 2] + reach).all(axis=1))
 
@@ -314,12 +332,13 @@ class StanceContact:
         around = float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).sum())
         if around <= 0.0:
             return None  # the lines of a noisy fit leave nothing: no ground that silence could deny
+        # derived: 2 A / U is a circle's radius: 0.4 of it, for a polygon too small for the margin
         if signed_margin(polygon, cop) < min(s.least_margin, 0.8 * area(polygon) / around):
             return None
         expected = self._fit.expected(load, cop, lines)
         silent = (expected > s.least_expected) & (mean < s.least_share * expected) & ~self._carried
         silent &= ~self._risen(cop)
-        # Three at least: a dead taxel is silent, too.
+        # derived: Three at least: a dead taxel is silent, too.
         wrong = int(silent.sum()) >= 3 and float(expected[silent].sum()) > s.least_wrong * load
         return silent if wrong else None
 

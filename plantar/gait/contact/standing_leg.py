@@ -13,10 +13,12 @@ with its hip at most sqrt((0.985 (thigh + shank))^2 - d^2) above the ankle there
 import math
 from typing import NamedTuple
 
-# Of thigh and shank that a leg stretches to, cos(10 degrees): the knee of equal ones keeps 20 degrees from straight.
+# derived: Of thigh and shank that a leg stretches to, cos(10 degrees): the knee of equal ones keeps 20 degrees from
+# straight.
 _STRETCHED = 0.985
-_HALVINGS = 12  # of the rise, whose largest is some hundredths of a leg: to a hundredth of a millimetre
-_LOWEST = 0.5  # of the way from ankle to hip that a standing leg comes down at most: below it no knee of a biped bears
+_HALVINGS = 12  # derived: of the rise, whose largest is some hundredths of a leg: to a hundredth of a millimetre
+# chosen: of the way from ankle to hip that a standing leg comes down at most: below it no knee of a biped bears
+_LOWEST = 0.5
 
 
 class StandingLeg(NamedTuple):
@@ -50,7 +52,7 @@ class StandingLeg(NamedTuple):
         """Returns middle and half width in m, along the sole, of where the knee bears the weight, standing higher by
         `rise` in m.
         """
-        apart = max(self.apart + rise, 1e-6)
+        apart = max(self.apart + rise, 1e-6)  # nature: floating point: no division by 0
         foot = (apart**2 + self.shank**2 - self.thigh**2) / (2.0 * apart)
         share = foot / apart
         knee = math.sqrt(max(self.shank**2 - foot**2, 0.0))

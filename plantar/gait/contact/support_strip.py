@@ -9,8 +9,8 @@ from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.layouts.layout import Side
 
 # of a sole's length: 6 and 40 mm of one of 250 mm
-_SPREAD = 0.024
-_AGREEMENT = 0.16
+_SPREAD = 0.024  # chosen: two of an edge's spread: a strip is seen by two edges of each foothold
+_AGREEMENT = 0.16  # chosen: seven spreads
 
 
 @dataclass
@@ -25,9 +25,9 @@ class SupportStrip:
     origin: NDArray[np.float64]
     along: NDArray[np.float64]
     spread: float = _SPREAD * REFERENCE_BODY.sole
-    slope: float = 0.1
+    slope: float = 0.1  # chosen: 6 degrees, what a strip may turn by against the walk in a step
     agreement: float = _AGREEMENT * REFERENCE_BODY.sole
-    memory: int = 6
+    memory: int = 6  # chosen: three steps of each foot
     _footholds: list[tuple[int, Side, float, float]] = field(default_factory=list)
 
     @classmethod

@@ -9,6 +9,7 @@ class CoMHeight:
     `ground`: initial height in m; `period` of control in s; `frequency`: natural frequency in rad/s.
     """
 
+    # derived: `_FOLLOWS_GROUND` on a leg of 0.6 m
     def __init__(self, ground: float, period: float, frequency: float = 8.0) -> None:
         self.ground = ground
         self.rate = 0.0

@@ -22,9 +22,11 @@ class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("
         unfelt_rate: Change in m/s of an unmeasured push's offset; 0 counts it as ZMP noise.
     """
 
-    com_noise: float = fixed(0.00333, "leg")  # Of the kinematic CoM in m
-    zmp_noise: float = fixed(0.04, "sole")  # Of the ZMP, less the measured offset, in m
-    unfelt_rate: float = share(0.495, "sole/beat", 0, 100)
+    com_noise: float = fixed(0.00333, "leg")  # Of the kinematic CoM in m; chosen: 2 mm on h1
+    # Of the ZMP, less the measured offset, in m; measured: 10 mm on h1, as a run's `zmp_error_rms_m` (10.5 mm in
+    # `partial-rear`)
+    zmp_noise: float = fixed(0.04, "sole")
+    unfelt_rate: float = share(0.495, "sole/beat", 0, 100)  # chosen: 0.5 m/s on h1
 
 
 class PushedPendulum(NamedTuple):
@@ -46,13 +48,13 @@ class DcmFilter:
         s = math.sinh(omega * period)
         self._input = np.array([1.0 - c, 1.0 - c - s])  # of the VRP, on x and xi
         own = np.array([[c - s, s], [0.0, c + s]])
-        count = 3 if rules.unfelt_rate > 0.0 else 2
+        count = 3 if rules.unfelt_rate > 0.0 else 2  # nature: position, DCM and offset
         self._step = np.eye(count)
         self._step[:2, :2] = own
         noise = np.zeros((count, count))
         noise[:2, :2] = rules.zmp_noise**2 * np.outer(self._input, self._input)
-        noise += 1e-18 * np.eye(count)  # m^2: keeps the covariance regular
-        if count == 3:
+        noise += 1e-18 * np.eye(count)  # nature: m^2: keeps the covariance regular
+        if count == 3:  # nature: position, DCM and offset
             self._step[:2, 2] = -self._input
             noise[2, 2] = (rules.unfelt_rate * period) ** 2
         self._gain = _stationary_gain(self._step, noise, np.eye(1, count), np.array([[rules.com_noise**2]]))
@@ -106,7 +108,7 @@ def _stationary_gain(
         g = g + a @ wg @ a.T
         a = a @ wa
         p = p + more
-        if np.abs(more).max() <= 1e-15 * np.abs(p).max():
+        if np.abs(more).max() <= 1e-15 * np.abs(p).max():  # nature: floating point, five roundings
             break
     p = 0.5 * (p + p.T)
     return np.asarray(np.linalg.solve(measured @ p @ measured.T + error, measured @ p).T)

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from plantar.common.sides import SIDES, Side
 from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector, sine_vector
 
-_STEP = 1e-4  # rad of a joint over which its effect on the soles is differenced; their motion is nearly linear
-_ITERATIONS = 2  # Gauss-Newton steps; offsets of a degree are found to 1e-9 rad by the second one
+_STEP = 1e-4  # chosen: rad of a joint over which its effect on the soles is differenced; their motion is nearly linear
+_ITERATIONS = 2  # measured: Gauss-Newton steps; offsets of a degree are found to 1e-9 rad by the second one
 
 
 class _Posture(Protocol):

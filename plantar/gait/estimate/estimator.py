@@ -92,8 +92,9 @@ def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]]
 
 
 _STILL = read_only(np.zeros(2))
-_SAME_HEIGHT = 1 / 200  # leg, between two footholds of one height as they are estimated: twice the error of a step
-_ANCHOR = 0.5  # 1/beat, at which the base is drawn back to the height of its feet
+# derived: leg, between two footholds of one height as they are estimated: twice the error of a step
+_SAME_HEIGHT = 1 / 200
+_ANCHOR = 0.5  # 1/beat, at which the base is drawn back to the height of its feet; chosen: 2 1/s on h1
 
 
 class EstimatorGains(Part, table="estimator"):
@@ -105,14 +106,17 @@ class EstimatorGains(Part, table="estimator"):
         observer: CoM velocity observer's bandwidth in rad/s, above the pendulum's.
     """
 
+    # chosen: 0.2 1/s: a sway of a trunk averages out, a gyro's bias of 1e-3 rad/s leaves 5 mrad
     gravity: float = share(0.0495, "1/beat", 0, 50)
-    averaging: float = fixed(2.02, "beat")  # Initial time in s of standing still and averaging gravity
-    yaw: float = share(0.495, "1/beat", 0, 50)
-    observer: float = share(4.95, "rad/beat", 0.1, 100)
-    tare: float = fixed(0.202, "beat")  # Time constant in s of the zero of a foot in the air
+    # Initial time in s of standing still and averaging gravity; derived: 0.5 s, the noise of a hundred ticks
+    averaging: float = fixed(2.02, "beat")
+    yaw: float = share(0.495, "1/beat", 0, 50)  # chosen: 2 1/s on h1; bounded by soles that slip
+    observer: float = share(4.95, "rad/beat", 0.1, 100)  # chosen: 20 rad/s on h1, above the pendulum's 3.5
+    # Time constant in s of the zero of a foot in the air; chosen: 50 ms: ten ticks of noise
+    tare: float = fixed(0.202, "beat")
     # Vertical force in N of a loaded foot, above the summed noise of unloaded taxels; feet are weighted by load beyond
     # it
-    minimum_load: float = fixed(0.083, "weight")
+    minimum_load: float = fixed(0.083, "weight")  # derived: `contact_force` of a landing, 70 N on h1
 
 
 @dataclass

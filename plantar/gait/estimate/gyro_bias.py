@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 
 from plantar.kernels.gait.gyro_bias import GyroBias as _Kernel
 
-# What a tick counts in which one foot carries, of one in which both do: in a second of single support a foot turns by
-# 0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad
+# derived: What a tick counts in which one foot carries, of one in which both do: in a second of single support a foot
+# turns by 0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad; (0.1 / 0.3)^2
 _ONE_FOOT = 0.1
 
-_FIRST_PIECES = 2  # Pieces of standing before a slip differs measurably from a bias
+_FIRST_PIECES = 2  # derived: Pieces of standing before a slip differs measurably from a bias
 
 
 class GyroBias:

@@ -14,10 +14,12 @@ from plantar.gait.estimate.estimator import LegKinematics, MovingKinematics, Pos
 from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.opening_stand import OpeningStand
 
-_TENTHS_MOST = 2.0  # that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
+# chosen: that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
+_TENTHS_MOST = 2.0
 
-_EVEN = 0.03  # share that hips carry more up to which the torso does not lean: what taxels' gains leave uncertain
-_MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; beyond, taxels are broken
+# chosen: share that hips carry more up to which the torso does not lean: what taxels' gains leave uncertain
+_EVEN = 0.03
+_MASS_RATIOS = (0.7, 1.4)  # chosen: that are believed of the mass over the model's; beyond, taxels are broken
 
 
 class IdentifiedBody:
@@ -116,7 +118,7 @@ class IdentifiedBody:
         self._lies_off = bool(self.com_offset.any())
         lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
         more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
-        self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
+        self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)  # nature: tenths
 
     def advance(self) -> None:
         """Advance commanded corrections by a tick after the stand."""
@@ -143,7 +145,8 @@ class IdentifiedBody:
     @property
     def _faded(self) -> float:
         s = self._share
-        return s * s * (3.0 - 2.0 * s)  # starts and ends without a jump in speed
+        # starts and ends without a jump in speed; nature: the cubic without speed at both ends, 3 s^2 - 2 s^3
+        return s * s * (3.0 - 2.0 * s)
 
     def summary(self) -> dict[str, Any]:
         """Identified values, for a run's summary."""

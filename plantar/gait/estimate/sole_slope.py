@@ -21,6 +21,7 @@ class SoleSlope:
     stand's mean.
     """
 
+    # chosen: fifty ticks, a quarter of a second
     def __init__(self, least_load: float, smoothing: float = 0.02) -> None:
         self._least_load = least_load
         self._smoothing = smoothing

@@ -14,8 +14,8 @@ from plantar.common.settings.part import Part
 from plantar.common.settings.schema import share
 
 MOST_OFFSET = 10.0
-"""Largest expected offset in m that is handed on: far beyond what any step makes up for, and small enough that no
-product of it with what a pendulum grows by overflows."""
+"""Derived: largest expected offset in m that is handed on: far beyond what any step makes up for, and small enough that
+no product of it with what a pendulum grows by overflows."""
 
 
 class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estimate": ("soles", "skin")}):
@@ -26,8 +26,8 @@ class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estima
         lasts: Expected decay's time constant in s, also without push; 1e6 stays (K 18).
     """
 
-    time_constant: float = share(4.04, "beat", 0, 10)
-    lasts: float = share(1.8, "beat", 0.001, 1e6)
+    time_constant: float = share(4.04, "beat", 0, 10)  # nature: K Table 1: alpha = dt / 1 s
+    lasts: float = share(1.8, "beat", 0.001, 1e6)  # chosen: 0.45 s on h1: a hand's push lasts from 0.1 to 1 s
 
 
 class WrenchFilter:
@@ -70,7 +70,7 @@ class WrenchFilter:
         share = self._share if x or y else self._ended
         self._x += share * (x - self._x)
         self._y += share * (y - self._y)
-        # A low pass never ends by itself. Below a nanometre nothing follows from it any more.
+        # derived: A low pass never ends by itself. Below a nanometre nothing follows from it any more.
         if x == 0.0 and y == 0.0 and math.hypot(self._x, self._y) < 1e-9:
             self._x = 0.0
             self._y = 0.0

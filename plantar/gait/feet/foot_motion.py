@@ -26,17 +26,20 @@ from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
 
 # Distances as shares of the leg:
-_RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more rises at most
-_CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the ground
-_NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
-_TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load counts as a touch
-_AHEAD = 1 / 60  # below where it is estimated to be at which a foot that comes down is commanded at most
-_ELSEWHERE = 1 / 150  # between ground and where it was expected from which the next steps come down slowly
-_SAME_PLACE = 1 / 6000  # between two places that are one
-_AT_THE_GROUND = 1 / 300  # from it within which the least load is
+_RETAKE_HEIGHT = 1 / 15  # chosen: above what the foot met that a step taken once more rises at most
+_CLOSE_BY = 0.1  # chosen: before its place from which a swing turns its sole to the ground
+_NEARLY_THERE = 0.02  # chosen: before its place from which a swing judges the ground that it will land on
+_TOUCHING = 1 / 60  # chosen: from the ground that it sees within which less than a blind foot's load counts as a touch
+_AHEAD = 1 / 60  # chosen: below where it is estimated to be at which a foot that comes down is commanded at most
+_ELSEWHERE = 1 / 150  # chosen: between ground and where it was expected from which the next steps come down slowly
+_SAME_PLACE = 1 / 6000  # derived: between two places that are one; 0.1 mm
+_AT_THE_GROUND = 1 / 300  # derived: from it within which the least load is; 2 mm, the noise of a reading
 
-_LEAST_TIME = 0.404  # beats before touchdown from which a foot would have to be thrown to reach another place
-_WARY = 6  # steps after ground that was elsewhere in which a swing that does not see it comes down slowly
+# chosen: beats before touchdown from which a foot would have to be thrown to reach another place; 0.1 s on h1
+_LEAST_TIME = 0.404
+# chosen: steps after ground that was elsewhere in which a swing that does not see it comes down slowly; three of each
+# foot
+_WARY = 6
 
 
 class SoleSense(Record, frozen=True):

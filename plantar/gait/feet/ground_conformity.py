@@ -37,18 +37,28 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
         gap: Rise in m of a lifted cell.
     """
 
-    firm: float = fixed(0.313, "rad/beat/sole/weight")  # k on firm ground, in rad/s per m for each newton carried
-    rolling: float = fixed(0.309, "rad/beat/sole")  # k of a foot rolling over an edge in rad/s per m
-    nearly: float = fixed(0.04, "sole")  # Distance in m from its target within which an incoming foot is not turned
-    largest_rate: float = fixed(0.148, "rad/beat")  # Largest rate of a turn in rad/s
-    least_load: float = fixed(0.0178, "weight")  # Vertical force in N from which a centre of pressure means something
-    press: float = fixed(0.0948, "weight")  # Force in N of a landed foot before it takes weight over
+    # k on firm ground, in rad/s per m for each newton carried; chosen: bounded by the delay of 20 ms, with which a
+    # quicker turn swings
+    firm: float = fixed(0.313, "rad/beat/sole/weight")
+    # k of a foot rolling over an edge in rad/s per m; chosen: bounded likewise
+    rolling: float = fixed(0.309, "rad/beat/sole")
+    # Distance in m from its target within which an incoming foot is not turned; chosen: 10 mm of 250, the error of a
+    # CoP under little load
+    nearly: float = fixed(0.04, "sole")
+    largest_rate: float = fixed(0.148, "rad/beat")  # Largest rate of a turn in rad/s; chosen: 0.6 rad/s on h1
+    # Vertical force in N from which a centre of pressure means something; derived: the least normal force of the law,
+    # 15 N
+    least_load: float = fixed(0.0178, "weight")
+    # Force in N of a landed foot before it takes weight over; chosen: 80 N on h1
+    press: float = fixed(0.0948, "weight")
     # Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground
-    follows: float = fixed(4.0, "sole/rad")
-    watch: ClassVar[int] = 16  # Control ticks over which rolling is judged
-    least_turn: ClassVar[float] = 0.0016  # Turn in rad, in the first half of them, from which it is
-    carries: float = fixed(0.398, "weight")  # Mean force in N from which a cell touches, times cells
-    gap: float = share(1 / 300, "leg", 0, 0.05)
+    follows: float = fixed(4.0, "sole/rad")  # chosen: a firm sole's CoP goes 1 m a radian; on an edge it stays
+    watch: ClassVar[int] = 16  # Control ticks over which rolling is judged; chosen: 80 ms
+    # Turn in rad, in the first half of them, from which it is; chosen: above the noise of encoders
+    least_turn: ClassVar[float] = 0.0016
+    # Mean force in N from which a cell touches, times cells; chosen: 8 N a cell of 42
+    carries: float = fixed(0.398, "weight")
+    gap: float = share(1 / 300, "leg", 0, 0.05)  # derived: 2 mm, the noise of a distance
 
 
 class SoleTurn(NamedTuple):

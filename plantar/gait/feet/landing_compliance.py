@@ -18,12 +18,14 @@ from plantar.common.settings.schema import Settings, fixed
 class DampingGains(Settings):
     """Foot damping at touchdown."""
 
-    admittance: float = fixed(0.261, "rad/beat/weight/sole")  # A in rad/s per N m
-    largest_rate: float = fixed(0.0247, "rad/beat")  # Largest rate of a turn
-    largest_turn: ClassVar[float] = 0.004  # Largest turn in rad: the error of a levelled sole
-    release: float = fixed(8.24, "1/beat")  # Rate in 1/s at which it ends in the air
+    # A in rad/s per N m; chosen: bounded by the delay of 20 ms
+    admittance: float = fixed(0.261, "rad/beat/weight/sole")
+    largest_rate: float = fixed(0.0247, "rad/beat")  # Largest rate of a turn; chosen: 0.1 rad/s
+    largest_turn: ClassVar[float] = 0.004  # derived: Largest turn in rad: the error of a levelled sole
+    # Rate in 1/s at which it ends in the air; chosen: 33 1/s: gone in a tenth of a swing
+    release: float = fixed(8.24, "1/beat")
     # Vertical force in N of a foot that carries the body and no longer yields
-    largest_force: float = fixed(0.415, "weight")
+    largest_force: float = fixed(0.415, "weight")  # chosen: 350 N on h1, before the foot carries half of the weight
 
 
 @dataclass

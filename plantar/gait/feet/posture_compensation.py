@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.kernels.gait.lean_correction import correct
 
-_TIME_CONSTANT = 0.121  # beat: 0.03 s on a leg of 0.6 m
-_LARGEST_SHIFT = 0.1  # leg
-_ROUNDED = 0.4  # share of its coming, at the end, in which it slows down: an even rate that stops would jerk the foot
+_TIME_CONSTANT = 0.121  # chosen: beat: 0.03 s on a leg of 0.6 m; six ticks
+_LARGEST_SHIFT = 0.1  # leg; chosen: 60 mm on h1, the shift of a foot by a lean of 4 degrees
+# chosen: share of its coming, at the end, in which it slows down: an even rate that stops would jerk the foot
+_ROUNDED = 0.4
 
 
 @dataclass
@@ -32,13 +33,13 @@ class PostureCompensation:
 
     period: float
     time_constant: float = _TIME_CONSTANT * REFERENCE_BODY.beat
-    fade: float = 0.2
+    fade: float = 0.2  # derived: 0.7 of a double support of 0.3 s, rounded; the controller gives its own
     largest_shift: float = _LARGEST_SHIFT * REFERENCE_BODY.leg
-    largest_turn: float = 0.12
+    largest_turn: float = 0.12  # chosen: 7 degrees
     shift: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     _weight: float = 0.0
-    _left: float = 1.0
+    _left: float = 1.0  # derived: all is left at the start
     _kept: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
 
     @classmethod

@@ -35,12 +35,12 @@ class SwingTrajectory:
     yaw_end: float
     height: float
     duration: float
-    lift_share: float = 0.45
-    lateral_hold: float = 0.06
-    lateral_end: float = 0.06
+    lift_share: float = 0.45  # derived: `_LIFT`
+    lateral_hold: float = 0.06  # derived: `_END`
+    lateral_end: float = 0.06  # derived: `_END`
     spare: float = 0.0
     approach_height: float = 0.0
-    approach_speed: float = 0.06
+    approach_speed: float = 0.06  # derived: of `landing`, on a leg of 0.6 m
     rises_first: bool = False
 
     @lazy

@@ -13,17 +13,23 @@ from plantar.mechanics.rotation import vector_from_rotation
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import SoleWrenchSwitch, early_stop, virtual_ground_reaction_wrench
 
-_DOUBT = 1 / 600  # leg past the ground that it sees at which a sole that has not touched goes down twice as fast
-_THERE = 1 / 300  # leg before its place from which a sole is above it
-_KEPT = 1 / 150  # leg from the ground that a sole keeps until then, and more the further it has to go
-_LARGEST_RISE = 0.0412  # leg/beat at which a sole goes up that is too near to the ground
-_LARGEST_DRIFT = 0.00206  # leg/beat that a body moves up or down above a foot that has touched
-_LARGEST_YIELD = 0.00824  # leg/beat at which a foot that has touched gives way
-_LARGEST_CHANGE = 2.0  # leg/beat^2 by which the speed of a sole in the air changes: sight comes in steps
-_LARGEST_TURN_CHANGE = 2.75  # rad/beat^2 of its turn, likewise
-_SOONER = 0.45  # share of its time in which a hasty descent comes to the ground sooner
+# chosen: leg past the ground that it sees at which a sole that has not touched goes down twice as fast
+_DOUBT = 1 / 600
+_THERE = 1 / 300  # derived: leg before its place from which a sole is above it; 2 mm
+# chosen: leg from the ground that a sole keeps until then, and more the further it has to go; two of the noise of a
+# reading
+_KEPT = 1 / 150
+_LARGEST_RISE = 0.0412  # chosen: leg/beat at which a sole goes up that is too near to the ground; 0.1 m/s on h1
+_LARGEST_DRIFT = 0.00206  # chosen: leg/beat that a body moves up or down above a foot that has touched; 5 mm/s on h1
+_LARGEST_YIELD = 0.00824  # chosen: leg/beat at which a foot that has touched gives way; 20 mm/s on h1
+# chosen: leg/beat^2 by which the speed of a sole in the air changes: sight comes in steps; 20 m/s^2 on h1
+_LARGEST_CHANGE = 2.0
+_LARGEST_TURN_CHANGE = 2.75  # chosen: rad/beat^2 of its turn, likewise
+_SOONER = 0.45  # chosen: share of its time in which a hasty descent comes to the ground sooner
 _LEVEL = np.zeros(3)
-_SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
+# derived: tangent of the slope that level ground may seem to have; 2 mm of noise, a mean of five, over half a sole, and
+# twice
+_SLOPE_OF_NOISE = 0.015
 
 
 class SwingCompliance:
@@ -162,6 +168,7 @@ class SwingCompliance:
         y = 0.0
         if view is not None and view.slope is None:
             x, y, _ = ((expected - vector_from_rotation(rotation)) / self.gains.turning).tolist()
+        # chosen: at the range's end taxels drop out one by one and tilt the plane
         elif view is not None and view.slope is not None and view.distance < 0.8 * self.ground.settings.sensing_range:
             x = view.slope[1] / self.gains.turning
             y = -view.slope[0] / self.gains.turning
@@ -206,7 +213,7 @@ class SwingCompliance:
         drift = _LARGEST_DRIFT * self._speed_unit
         self._drift = min(drift, max(-drift, self._drift + missing * period / t.settling))
         wanted = missing + self._drift
-        if load < 0.3 * t.hold_force:
+        if load < 0.3 * t.hold_force:  # chosen: below, the foot may have left the ground
             wanted = max(wanted, g.touch_speed + above / g.damping)
         fastest = _LARGEST_YIELD * self._speed_unit
         self._speed = min(fastest, max(-fastest, wanted))

@@ -17,7 +17,7 @@ from plantar.gait.feet.swing_flight import PolynomialSwing, SwingFlight
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.kernels.gait.swing_fit import fit
 
-_LEAST_SHARE = 1e-6  # of a swing: what is left of it at least, for a duration that has passed
+_LEAST_SHARE = 1e-6  # nature: of a swing: what is left of it at least, for a duration that has passed; no division by 0
 
 
 class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": ("fit",)}):
@@ -33,11 +33,12 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
     """
 
     ends: str = choice("kept", "printed")
-    order: int = whole(6, "1", 5, 9)
+    order: int = whole(6, "1", 5, 9)  # nature: K Table 1
+    # chosen: K Table 1 has 0.01 for poses in metres; here a share of the data
     damping: float = number(1e-6, "1", 1e-9, 1e3)
-    position: float = number(1.0, "1", 1e-9, 1e3)
+    position: float = number(1.0, "1", 1e-9, 1e3)  # nature: K Table 1
     # gamma: share of the swing after which, and before whose end, it is that high
-    height_share: ClassVar[float] = 1.0 / 3.0
+    height_share: ClassVar[float] = 1.0 / 3.0  # nature: K Table 1
 
     def begin(self, start: SwingStart) -> Swing:
         """Fitted swing, or polynomials if it has to rise first."""

@@ -18,18 +18,21 @@ from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.same_time import SAME_TIME
 
 # shares of a swing that only descends, blind or seeing the ground early
-_END = 0.06
-_EARLY_END = 0.25
-_SPARE = 0.12  # share left of a seeing one
+_END = 0.06  # chosen: of a blind one: 50 ms of 0.9 s
+_EARLY_END = 0.25  # chosen: of one that sees the ground early: time to come down by sight
+_SPARE = 0.12  # chosen: share left of a seeing one
 # and spent rising
-_LIFT = 0.45
-_EARLY_LIFT = 0.28
-_LONG_LIFT = 0.42  # from which on a seeing swing arrives as late as a blind one, wholly from _LIFT on
-_QUICKEST = 0.26  # leg/beat at most of a rise, which the knee's speed bounds, unless it would last as long as others'
-_PEAK = 1.875  # largest speed of a minimum-jerk motion over its mean
-_RAMP = 0.2  # share of the time left in which the clock comes to its new rate
-_STEP = 1e-4  # s of the differences that velocity and acceleration are taken from
-_LATE = 0.85  # of the time left in which a foot that is above its old place already goes to the new one
+_LIFT = 0.45  # chosen: of a blind one
+_EARLY_LIFT = 0.28  # chosen: of one that sees the ground early; bounded by the knee's speed
+_LONG_LIFT = 0.42  # chosen: from which on a seeing swing arrives as late as a blind one, wholly from _LIFT on
+# chosen: leg/beat at most of a rise, which the knee's speed bounds, unless it would last as long as others'
+_QUICKEST = 0.26
+_PEAK = 1.875  # nature: largest speed of a minimum-jerk motion over its mean; 15/8
+_RAMP = 0.2  # chosen: share of the time left in which the clock comes to its new rate
+# derived: s of the differences that velocity and acceleration are taken from; the fourth root of a rounding, best for
+# second differences
+_STEP = 1e-4
+_LATE = 0.85  # chosen: of the time left in which a foot that is above its old place already goes to the new one
 
 
 @dataclass(frozen=True)
@@ -81,10 +84,11 @@ class _Course:
         v = t * v
         a = t * t * a
         way = end - p
-        # The fifth-order polynomial in s = 0..1 with speed and acceleration given at its start and zero at its end.
+        # nature: The fifth-order polynomial in s = 0..1 with speed and acceleration given at its start and zero at its
+        # end.
         third = 10.0 * way - 6.0 * v - 1.5 * a
-        fourth = -15.0 * way + 8.0 * v + 1.5 * a
-        fifth = 6.0 * way - 3.0 * v - 0.5 * a
+        fourth = -15.0 * way + 8.0 * v + 1.5 * a  # nature: the same polynomial
+        fifth = 6.0 * way - 3.0 * v - 0.5 * a  # nature: the same polynomial
         return cls(since, until, np.array([p, v, 0.5 * a, third, fourth, fifth]))
 
     def at(self, time: float) -> NDArray[np.float64]:

@@ -10,7 +10,8 @@ from plantar.common.record import Record
 from plantar.common.settings.part import Part
 from plantar.gait.plan.leg_momentum import haste
 
-_HURRIED = 0.88  # of its first duration, below which a swing is hurried; times alone shorten it by a tenth at most
+# derived: of its first duration, below which a swing is hurried; times alone shorten it by a tenth at most
+_HURRIED = 0.88
 
 
 def hurried(duration: float, first: float) -> bool:
@@ -44,7 +45,7 @@ class SwingStart(Record, frozen=True):
     least_time: float
     sees_ground: bool = False
     approach_height: float = 0.0
-    approach_speed: float = 0.06
+    approach_speed: float = 0.06  # derived: of `landing`, on a leg of 0.6 m
     rises_first: bool = False
 
     @property

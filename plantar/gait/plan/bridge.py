@@ -9,7 +9,7 @@ from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.geometry.polygon import closest_point
 from plantar.mechanics.same_time import SAME_TIME
 
-_RAMP = 0.15  # of the bridge's time at both ends, in which the VRP moves to where it bridges and back
+_RAMP = 0.15  # chosen: of the bridge's time at both ends, in which the VRP moves to where it bridges and back
 
 Knots = tuple[list[float], list[NDArray[np.float64]]]
 
@@ -70,6 +70,7 @@ def _with_bridge(
         if times and times[0] > window[1] + SAME_TIME:  # a bridge inside a stance ends where the stance's VRP is
             head_times.append(window[1])
             head.append(ahead)
+    # nature: floating point: knots that are nearer are one
     fresh = [i for i, t in enumerate(times) if t > head_times[-1] + 1e-6]
     return head_times + [times[i] for i in fresh], head + [points[i] for i in fresh], bridge
 
@@ -77,7 +78,7 @@ def _with_bridge(
 def _response(times: list[float], omega: float) -> float:
     """DCM at the first knot by 1 m of VRP at the two before the last."""
     dcm = 0.0
-    vrp = [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
+    vrp = [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]  # nature: the knots before
     for i in range(len(times) - 2, -1, -1):
         length = times[i + 1] - times[i]
         rate = (vrp[i + 1] - vrp[i]) / length

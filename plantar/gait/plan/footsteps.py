@@ -38,9 +38,9 @@ class Footstep:
 def straight_plan(
     steps: int,
     *,
-    length: float = 0.2,
+    length: float = 0.2,  # nature: T 4.4.5
     sideways: float = 0.0,
-    width: float = 0.17,
+    width: float = 0.17,  # nature: h1's, as its file states it
     first: Side = "left",
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     height: float = 0.0,

@@ -25,14 +25,16 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
 
-_AHEAD = 4  # steps that count: later ones move the CoM by micrometres
-_HELD = 0.06  # of a swing, at its start, in which the foot only rises
-_KNOTS = tuple((k / 6, 60 * (k / 6) - 180 * (k / 6) ** 2 + 120 * (k / 6) ** 3) for k in range(7))  # minimum-jerk s''
+_AHEAD = 4  # derived: steps that count: later ones move the CoM by micrometres
+_HELD = 0.06  # of a swing, at its start, in which the foot only rises; derived: `_END` of the swing flight
+# nature: minimum-jerk s''
+_KNOTS = tuple((k / 6, 60 * (k / 6) - 180 * (k / 6) ** 2 + 120 * (k / 6) ** 3) for k in range(7))
 # shares of a swing after which its foot only descends: with time to spare, and at most
-_EARLY = 0.75
-_LATEST = 0.94
-_BRISK = 0.07 * math.sqrt(3.0) * GRAVITY  # m of way over s^2 of time, of a minimum jerk whose peak a hip takes: 0.7 g
-_FADES = 1.0  # s after the last swing in which nothing is left
+_EARLY = 0.75  # derived: 1 - `_EARLY_END` of the swing flight
+_LATEST = 0.94  # derived: 1 - `_END` of the swing flight
+# derived: m of way over s^2 of time, of a minimum jerk whose peak a hip takes: 0.7 g
+_BRISK = 0.07 * math.sqrt(3.0) * GRAVITY
+_FADES = 1.0  # chosen: s after the last swing in which nothing is left
 
 
 def haste(way: float, duration: float) -> float:

@@ -35,12 +35,12 @@ class Timing(Settings):
             there, so that it is constant over a step (T 4.14).
     """
 
-    single_support: float = number(0.9, "s", 0.2, 10)
-    double_support: float = number(0.3, "s", 0.02, 10)
-    start: float = number(1.2, "s", 0.2, 60)
-    end: float = number(1.0, "s", 0.2, 60)
-    settle: float = number(2.0, "s", 0, 600)
-    transfer: float = number(1.0, "1", 0, 1)
+    single_support: float = number(0.9, "s", 0.2, 10)  # nature: T 4.4.5
+    double_support: float = number(0.3, "s", 0.02, 10)  # nature: T 4.4.5
+    start: float = number(1.2, "s", 0.2, 60)  # chosen: four pendulum times of 0.28 s
+    end: float = number(1.0, "s", 0.2, 60)  # chosen: 3.5 pendulum times
+    settle: float = number(2.0, "s", 0, 600)  # chosen: seven pendulum times
+    transfer: float = number(1.0, "1", 0, 1)  # derived: all of it, the slowest motion of the VRP
 
 
 @dataclass(frozen=True)

@@ -21,17 +21,23 @@ from plantar.gait.plan.plan_change import AppliedChange, MovedStep, PlanChange
 from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.mechanics.same_time import SAME_TIME
 
-_DELAY = 0.202  # beats by which a double support that is too short grows at a time
-_MOST_DELAY = 1.21  # beats in all
-_SHORT = 0.02  # leg of the DCM that the feedback is left to deal with
-_STANCE_BRIDGE = 3.24  # beats in which a change that comes in single support is bridged
-_FORESIGHT = 0.243  # beats before touchdown from which a foothold that is seen coming is bridged on the stance foot
-_LEAST_BRIDGE = 0.202  # beats: with less time left nothing is bridged
-_AT_REST = 4.04  # beats of standing before the first weight shift, and after the last, that the VRP rests in
-_REBUILT = 4  # stances that a replan builds again; later ones keep what they have
-_REMEMBERED = 4  # steps behind the current one that a plan without an end keeps
-_RECORDED = 1000  # changes that the record keeps
-_JUMP = 1e-3  # s: what a VRP that jumps takes, since knots follow each other in time
+_DELAY = 0.202  # chosen: beats by which a double support that is too short grows at a time; 50 ms
+_MOST_DELAY = 1.21  # derived: beats in all; a double support once more
+_SHORT = 0.02  # chosen: leg of the DCM that the feedback is left to deal with; 12 mm on h1
+# chosen: beats in which a change that comes in single support is bridged; 0.8 s on h1, most of a single support
+_STANCE_BRIDGE = 3.24
+# chosen: beats before touchdown from which a foothold that is seen coming is bridged on the stance foot; 60 ms
+_FORESIGHT = 0.243
+_LEAST_BRIDGE = 0.202  # chosen: beats: with less time left nothing is bridged; 50 ms
+# derived: beats of standing before the first weight shift, and after the last, that the VRP rests in; 1 s on h1: e^-3.5
+# is left of what was before
+_AT_REST = 4.04
+# derived: stances that a replan builds again; later ones keep what they have; the fourth moves the DCM by e^(-4 w T) of
+# its way, 5e-8
+_REBUILT = 4
+_REMEMBERED = 4  # chosen: steps behind the current one that a plan without an end keeps; a time alone depends on it
+_RECORDED = 1000  # chosen: changes that the record keeps; no motion depends on it
+_JUMP = 1e-3  # chosen: s: what a VRP that jumps takes, since knots follow each other in time; a fifth of a tick
 
 
 def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:

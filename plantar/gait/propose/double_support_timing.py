@@ -29,9 +29,11 @@ class DoubleSupportTimingRules(
         pause: Between two changes in s.
     """
 
+    # derived: twice that of step adjustment: a timing moves less than a step
     least_error: float = share(0.08, "sole", 0, 0.2)
-    least_left: float = fixed(0.202, "beat")  # Time in s before its end from which it stays; none ends sooner
-    pause: float = share(0.202, "beat", 0, 5)
+    # Time in s before its end from which it stays; none ends sooner; chosen: 50 ms, ten ticks
+    least_left: float = fixed(0.202, "beat")
+    pause: float = share(0.202, "beat", 0, 5)  # chosen: 50 ms, in which the last change acts
 
 
 class DoubleSupportTiming:
@@ -76,7 +78,7 @@ class DoubleSupportTiming:
             return None
         change = round((found - (phase.end - phase.start)) / self._period) * self._period
         change = max(change, rules.least_left - left)
-        if abs(change) < 1.5 * self._period:
+        if abs(change) < 1.5 * self._period:  # derived: of whole ticks, more than one
             return None
         self._changed = tick.time
         # It is about the footstep that the double support ends with.

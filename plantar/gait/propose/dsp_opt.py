@@ -19,10 +19,10 @@ from plantar.common.settings.schema import number
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import MOST_GROWTH, SHORTEST_TIME, double_support_pull
 
-_SAMPLES = np.linspace(0.0, 1.0, 33)
-_LEVELS = 6  # each with samples 16 times as close as the one before
-_SMALL = 1e-3  # 1 - cos(w_d x) below which the closed form of the pull cancels too many digits
-_TURNS = 100  # far more than any bracket takes, halved now and then, to come to its last bit
+_SAMPLES = np.linspace(0.0, 1.0, 33)  # chosen: tests compare with a dense scan
+_LEVELS = 6  # derived: each with samples 16 times as close as the one before; 16^-6, a rounding of single precision
+_SMALL = 1e-3  # nature: 1 - cos(w_d x) below which the closed form of the pull cancels too many digits
+_TURNS = 100  # derived: far more than any bracket takes, halved now and then, to come to its last bit
 
 
 class DspWeights(
@@ -39,13 +39,13 @@ class DspWeights(
         most: gamma_max, share of the nominal duration.
     """
 
-    dynamics: float = number(15.0, "1", 1e-3, 1e6)
-    nominal: float = number(1.0, "1", 1e-3, 1e6)
-    smooth: float = number(1.0, "1", 1e-3, 1e6)
-    longer: float = number(1.0, "1", 1e-3, 1e6)
-    shorter: ClassVar[float] = 5.0  # Factor w_- on shorter durations
-    least: float = number(0.5, "1", 0.0, 1.0)
-    most: float = number(5.0, "1", 1.0, 100.0)
+    dynamics: float = number(15.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    nominal: float = number(1.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    smooth: float = number(1.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    longer: float = number(1.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    shorter: ClassVar[float] = 5.0  # Factor w_- on shorter durations; nature: K Table 1
+    least: float = number(0.5, "1", 0.0, 1.0)  # nature: K Table 1
+    most: float = number(5.0, "1", 1.0, 100.0)  # nature: K Table 1
 
 
 class DspProblem(NamedTuple):
@@ -132,7 +132,7 @@ def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
 def _solution(cost: "_Cost", time: float, bound: int) -> DspSolution:
     slope, size, missed = cost.slope(time)
     left = abs(slope) if bound == 0 else max(0.0, -slope if bound < 0 else slope)
-    return DspSolution(time, np.array(missed), bound, left / max(size, 1e-300))
+    return DspSolution(time, np.array(missed), bound, left / max(size, 1e-300))  # nature: floating point: 0 / 0 is 0
 
 
 def _zero(cost: "_Cost", low: float, high: float, at_low: float, at_high: float) -> float:
@@ -147,7 +147,7 @@ def _zero(cost: "_Cost", low: float, high: float, at_low: float, at_high: float)
         time = a + share * (b - a)
         slope, size, _ = cost.slope(time)
         best = time
-        if abs(slope) <= 1e-12 * size:
+        if abs(slope) <= 1e-12 * size:  # nature: floating point, 5000 roundings of a slope
             break
         c = a
         fc = fa
@@ -158,7 +158,7 @@ def _zero(cost: "_Cost", low: float, high: float, at_low: float, at_high: float)
             fb = fa
         a = time
         fa = slope
-        if abs(b - a) <= 4e-16 * abs(b):
+        if abs(b - a) <= 4e-16 * abs(b):  # nature: floating point, two roundings
             break
         xi = (a - b) / (c - b)
         phi = (fa - fb) / (fc - fb)
@@ -260,9 +260,9 @@ def _pull_and_rate(omega: float, time: float, left: float) -> tuple[float, float
     return pull, (whole_rate - pull * sine * turning) / (2.0 * half)
 
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
-_SHARES = (0.5 * (_NODES + 1.0)).tolist()
-_PARTS = (0.5 * _WEIGHTS).tolist()
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)  # nature: ten nodes integrate polynomials up to order 19
+_SHARES = (0.5 * (_NODES + 1.0)).tolist()  # derived: the nodes on 0 to 1
+_PARTS = (0.5 * _WEIGHTS).tolist()  # derived: their weights there
 
 
 def _pull_and_rate_near_the_end(omega: float, left: float, angle: float, turning: float) -> tuple[float, float]:

@@ -11,16 +11,17 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.layouts.layout import SoleLayout
 
-# Share of the taxels that see nothing, of an edge: half of the row along a side. Fewer are a hole, or have failed.
+# derived: Share of the taxels that see nothing, of an edge: half of the row along a side. Fewer are a hole, or have
+# failed.
 _LEAST_OVER = 0.08
 
-_MOST_OVER = 0.5  # Share beyond which it is no foothold with an edge any more
+_MOST_OVER = 0.5  # chosen: Share beyond which it is no foothold with an edge any more
 
-# Landings in a row of one foot, alike, by which a walk that bears partial footholds has drifted off its way: one such
-# foothold is a stone's shape.
+# chosen: Landings in a row of one foot, alike, by which a walk that bears partial footholds has drifted off its way:
+# one such foothold is a stone's shape.
 _DRIFT = 3
 
-_ALIKE = 0.08  # Of a sole's width, by which the moves for them differ at most: half a row of taxels, and noise
+_ALIKE = 0.08  # derived: Of a sole's width, by which the moves for them differ at most: half a row of taxels, and noise
 
 
 class EdgeBeside:

@@ -47,29 +47,35 @@ class FeasibilityRules(
 
     rule: str = choice("skin", "force_torque")
     at: str = choice("probe", "impact")
+    # chosen: epsilon_A of T 4.3.2 is not printed; half a sole and what gains of taxels leave
     area_ratio: float = number(0.6, "1", 0, 2)
     # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
-    ankle_moment: float = fixed(0.0379, "weight sole")
-    surprise: float = fixed(1 / 30, "leg")  # Height in m above expected ground from which it is checked
-    hold: float = share(2.83, "beat", 0.01, 10)
-    probe_force: float = fixed(0.154, "weight")  # Pressing force in N
-    impact_force: float = fixed(0.083, "weight")  # Force in N that is an impact: 70 N on a robot of 86 kg (T 4.4.5)
-    probe_time: float = fixed(0.485, "beat")  # For how long in s it is probed, once it is there
+    ankle_moment: float = fixed(0.0379, "weight sole")  # chosen: epsilon_t of T 4.3.2 is not printed; 8 N m on h1
+    # Height in m above expected ground from which it is checked; chosen: 20 mm on h1, the lowest obstacle
+    surprise: float = fixed(1 / 30, "leg")
+    hold: float = share(2.83, "beat", 0.01, 10)  # chosen: 0.7 s on h1
+    probe_force: float = fixed(0.154, "weight")  # Pressing force in N; chosen: 130 N on h1
+    # nature: Force in N that is an impact: 70 N on a robot of 86 kg (T 4.4.5)
+    impact_force: float = fixed(0.083, "weight")
+    # For how long in s it is probed, once it is there; chosen: 0.12 s on h1, thirty readings
+    probe_time: float = fixed(0.485, "beat")
     # For how long in s the touch is read at an impact: taxels' noise averages out
-    impact_time: float = fixed(0.2, "beat")
-    probe_limit: float = fixed(1.01, "beat")  # For how long in s it may take to come
-    reserve: float = fixed(2.02, "beat")  # Least single support in s after the check
-    active_force: float = share(0.00154, "weight", 0, 10000)
-    near: float = share(0.005, "leg", 0, 0.05)
-    clearance: float = share(1 / 24, "leg", 0, 0.2)
-    swing_time: float = share(5.66, "beat", 0.2, 10)
-    return_time: float = fixed(8.9, "beat")  # Duration in s of the swing back next to the other foot
-    outward: float = share(1 / 3, "leg", 0, 1)
-    inward: float = fixed(0.025, "leg")  # Largest move inwards in m
-    forward: float = share(2 / 15, "leg", 0, 1)
-    sideways_cost: float = number(2.0, "1", 0.01, 100)
-    backward: float = share(0.4, "leg", 0, 1)
-    attempts: int = whole(2, "attempts", 0, 100)
+    impact_time: float = fixed(0.2, "beat")  # chosen: 50 ms, twelve readings
+    # For how long in s it may take to come; chosen: 0.25 s on h1, twice `probe_time`
+    probe_limit: float = fixed(1.01, "beat")
+    reserve: float = fixed(2.02, "beat")  # Least single support in s after the check; chosen: 0.5 s on h1
+    active_force: float = share(0.00154, "weight", 0, 10000)  # chosen: 1.3 N on h1
+    near: float = share(0.005, "leg", 0, 0.05)  # chosen: 3 mm on h1, 1.5 of a reading's noise
+    clearance: float = share(1 / 24, "leg", 0, 0.2)  # chosen: 25 mm on h1
+    swing_time: float = share(5.66, "beat", 0.2, 10)  # nature: T 4.4.5's tss of HRP-2, 1.4 s
+    # Duration in s of the swing back next to the other foot; chosen: 2.2 s on h1
+    return_time: float = fixed(8.9, "beat")
+    outward: float = share(1 / 3, "leg", 0, 1)  # chosen: 0.2 m on h1
+    inward: float = fixed(0.025, "leg")  # Largest move inwards in m; chosen: 15 mm: beyond, feet collide
+    forward: float = share(2 / 15, "leg", 0, 1)  # chosen: 80 mm on h1
+    sideways_cost: float = number(2.0, "1", 0.01, 100)  # chosen: at least 1
+    backward: float = share(0.4, "leg", 0, 1)  # chosen: 0.24 m on h1, a step and a fifth
+    attempts: int = whole(2, "attempts", 0, 100)  # chosen: at least one
 
 
 @dataclass(frozen=True)

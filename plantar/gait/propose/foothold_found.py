@@ -16,13 +16,14 @@ from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.mechanics.rotation import level_rotation
 
-# Share of the sole across the walk below which the ground is narrow. The widest that counts as a strip, half a sole,
-# is seen with an error of a taxel at either edge, a fourteenth of a sole of 42 taxels.
+# derived: Share of the sole across the walk below which the ground is narrow. The widest that counts as a strip, half a
+# sole, is seen with an error of a taxel at either edge, a fourteenth of a sole of 42 taxels.
 _NARROW = 0.75
 
-_NEAR = 0.5  # Share of what an ankle bears up to which the load may lie from it without the footsteps being moved
+# chosen: Share of what an ankle bears up to which the load may lie from it without the footsteps being moved
+_NEAR = 0.5
 
-# Share of what an ankle bears on which a foot is loaded that is still to come; the rest is to balance with
+# chosen: Share of what an ankle bears on which a foot is loaded that is still to come; the rest is to balance with
 _BORNE = 0.75
 
 

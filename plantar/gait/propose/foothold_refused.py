@@ -22,7 +22,7 @@ from plantar.gait.propose.feasibility import FeasibilityRules, Foothold, Foothol
 from plantar.gait.propose.proposer import Priority, Tick
 from plantar.layouts.layout import SoleLayout
 
-_LASTING = 4  # control ticks for which ground has to look higher than expected
+_LASTING = 4  # chosen: control ticks for which ground has to look higher than expected; 20 ms
 
 
 class _State(Enum):
@@ -160,7 +160,8 @@ class StepGuard:
         reading = tick.readings[side]
         load = tick.loads[side]
         time = tick.time
-        # The rule reads a foot that has its load; where that does not come, what there is after the time for it.
+        # The rule reads a foot that has its load; where that does not come, what there is after the time for it;
+        # chosen: a foot yields as it is pressed, and may stay below its force
         if self._since == math.inf and (load > 0.7 * self._force or time > self._began + rules.probe_limit):
             self._since = time
         if time >= self._since + self._settling and reading.time > self._reading_time:

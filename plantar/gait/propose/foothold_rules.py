@@ -16,6 +16,6 @@ class FootholdRules(Part, table="foothold", needs={"control.footholds": ("force"
     move_steps: bool = switch(True)
 
     # Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved
-    least_move: float = fixed(0.016, "sole")
-    largest_shift: float = fixed(0.08, "sole")  # Largest move of footsteps in m by one foothold
-    replan_pause: float = fixed(0.243, "beat")  # Time in s between two such moves
+    least_move: float = fixed(0.016, "sole")  # chosen: 4 mm of 250
+    largest_shift: float = fixed(0.08, "sole")  # Largest move of footsteps in m by one foothold; chosen: 20 mm of 250
+    replan_pause: float = fixed(0.243, "beat")  # Time in s between two such moves; chosen: 60 ms

@@ -27,11 +27,12 @@ class LearnedStrideRules(
         largest: Largest factor.
     """
 
-    rate: float = number(0.3, "1", 0, 1)
+    rate: float = number(0.3, "1", 0, 1)  # chosen: three pushed steps make 2/3 of the way
     # Stride in m below which a direction has no stride that could become longer
-    least_stride: float = fixed(1 / 30, "leg")
-    least_change: float = fixed(1 / 120, "leg")  # Change in m of a stride below which the plan stays
-    largest: float = number(2.0, "1", 1, 5)
+    least_stride: float = fixed(1 / 30, "leg")  # chosen: 20 mm on h1
+    # Change in m of a stride below which the plan stays; chosen: 5 mm on h1
+    least_change: float = fixed(1 / 120, "leg")
+    largest: float = number(2.0, "1", 1, 5)  # chosen: twice its stride
 
 
 class LearnedStride:

@@ -39,11 +39,11 @@ class StepWeights(
         time: Factor on w_tau = 1 / (tau_max - tau_min).
     """
 
-    dynamics: float = number(15.0, "1", 1e-3, 1e6)
-    nominal: float = number(1.0, "1", 1e-3, 1e6)
-    smooth: float = number(1.0, "1", 1e-3, 1e6)
-    location: float = number(1.0, "1", 1e-3, 1e6)
-    time: float = number(1.0, "1", 1e-3, 1e6)
+    dynamics: float = number(15.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    nominal: float = number(1.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    smooth: float = number(1.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    location: float = number(1.0, "1", 1e-3, 1e6)  # nature: K Table 1
+    time: float = number(1.0, "1", 1e-3, 1e6)  # nature: K Table 1
 
 
 class StepRegionRules(Part, table="step_region", needs={"control.step_adjustment": (True,)}):
@@ -58,10 +58,10 @@ class StepRegionRules(Part, table="step_region", needs={"control.step_adjustment
         outside: Largest distance in m between sole middle lines.
     """
 
-    forward: float = share(0.417, "leg", 0, 1)
-    backward: float = share(0.333, "leg", 0, 1)
-    clearance: float = share(0.0233, "leg", 0, 0.5)
-    outside: float = share(0.55, "leg", 0, 1)
+    forward: float = share(0.417, "leg", 0, 1)  # chosen: 0.25 m on h1: steps of 0.2 m need more than the paper's
+    backward: float = share(0.333, "leg", 0, 1)  # nature: K Table 1, 0.2 m
+    clearance: float = share(0.0233, "leg", 0, 0.5)  # chosen: 14 mm on h1
+    outside: float = share(0.55, "leg", 0, 1)  # chosen: 0.33 m on h1
 
 
 def footstep_region(
@@ -272,6 +272,7 @@ def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]
     deep = max(p[1] for p in region) - min(p[1] for p in region)
     by_place = both * weights.location
     first = math.exp(-w * max(high - problem.shortest, 0.0))
+    # nature: floating point: no division by 0
     by_time = both * weights.time * math.exp(min(w * high, MOST_GROWTH)) / max(1.0 - first, 1e-9)
     drawn = [math.exp(min(w * (t - high), MOST_GROWTH)) for t in (nt, tt)]
     return _Program(
@@ -280,7 +281,7 @@ def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]
         # xi_s of K 23-24 less u* - u_w, where the u_w of both cancel.
         (sx * later - ix * swayed - px, sy * later - iy * swayed - py),
         (grown * (x - px + ox), grown * (y - py + oy)),
-        (by_place / max(wide, 1e-3), by_place / max(deep, 1e-3)),
+        (by_place / max(wide, 1e-3), by_place / max(deep, 1e-3)),  # chosen: a region of a millimetre is a point
         ((by_nominal * nx + by_target * tx) / both, (by_nominal * ny + by_target * ty) / both),
         by_time,
         (by_nominal * drawn[0] + by_target * drawn[1]) / both,
@@ -394,4 +395,4 @@ def _residual(
             # The edge that ends at the corner is left backwards, the one that begins there forwards.
             (ax, ay), (bx, by) = rays
             by_place = max(0.0, gx * ax + gy * ay, -gx * bx - gy * by)
-    return max(by_place / max(size, 1e-300), by_time / max(time_size, 1e-300))
+    return max(by_place / max(size, 1e-300), by_time / max(time_size, 1e-300))  # nature: floating point: 0 / 0 is 0

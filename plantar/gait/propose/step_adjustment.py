@@ -37,10 +37,10 @@ from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.kernels.gait.pendulum_miss import missed_by
 from plantar.kernels.geometry import convex
 
-_PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
+_PEAK = 5.774  # nature: largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
 # times that are tried first, and how often the best one's neighbourhood is halved
-_COARSE = 10
-_FINE = 4
+_COARSE = 10  # chosen: a time alone depends on it: the cost has one minimum
+_FINE = 4  # chosen: 160 parts of a single support are about a tick
 
 
 class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_adjustment": (True,)}):
@@ -65,21 +65,24 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
     confidence: float = number(0.0, "1", 0, 1)
     yielding: float = number(0.0, "1", 0, 2)
     double_support: bool = switch(False)
-    least_error: float = share(0.04, "sole", 0, 0.2)
-    acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
-    sideways: float = number(0.5, "1", 0.01, 1)
-    shortest: float = number(0.45, "1", 0, 0.9)
-    longest: float = number(0.3, "1", 0, 5)
-    least_left: float = fixed(0.404, "beat")  # Time in s before touchdown from which a foot is not aimed
-    quick: float = fixed(3.64, "beat")  # Single support in s from which a slower walk's is shortened, too
-    pause: float = share(0.081, "beat", 0, 5)
-    lasting: float = fixed(0.202, "beat")  # Time in s for which a small push's miss has to last
-    price_time: float = fixed(0.0206, "leg/beat")  # Cost of a second earlier in m/s of DCM error
-    # The same in m/s of a second later, in which an error in the expected DCM of 20 to 35 mm grows on
+    least_error: float = share(0.04, "sole", 0, 0.2)  # chosen: 10 mm of 250
+    acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)  # chosen: 8 m/s^2 on h1
+    sideways: float = number(0.5, "1", 0.01, 1)  # measured: with all of it h1's hips sink
+    shortest: float = number(0.45, "1", 0, 0.9)  # chosen: bounded by the foot's way, which the acceleration bounds
+    longest: float = number(0.3, "1", 0, 5)  # chosen: in 0.3 of a single support an error of the DCM grows 2.5 times
+    # Time in s before touchdown from which a foot is not aimed; chosen: 0.1 s on h1
+    least_left: float = fixed(0.404, "beat")
+    # Single support in s from which a slower walk's is shortened, too; nature: T 4.4.5, 0.9 s
+    quick: float = fixed(3.64, "beat")
+    pause: float = share(0.081, "beat", 0, 5)  # chosen: 20 ms, four ticks
+    lasting: float = fixed(0.202, "beat")  # Time in s for which a small push's miss has to last; chosen: 50 ms on h1
+    # Cost of a second earlier in m/s of DCM error; chosen: 50 mm/s on h1, decides between equals
+    price_time: float = fixed(0.0206, "leg/beat")
+    # derived: The same in m/s of a second later, in which an error in the expected DCM of 20 to 35 mm grows on
     price_later: float = fixed(0.165, "leg/beat")
-    price_place: float = number(0.5, "1", 0, 10)
+    price_place: float = number(0.5, "1", 0, 10)  # chosen: bounded by 0, where a millimetre of error moves a step
     # Distance in m from its place at which a foot that has landed stands elsewhere
-    misplaced: float = fixed(0.0333, "leg")
+    misplaced: float = fixed(0.0333, "leg")  # chosen: 20 mm on h1
 
 
 class _Foot(NamedTuple):
@@ -271,6 +274,7 @@ class StepAdjustment:
         longer = round((found.left - left) / self._period) * self._period
         step = tick.phase.step
         move = found.move
+        # derived: of whole ticks, more than one
         if abs(longer) < 1.5 * self._period and math.hypot(*move) < 0.5 * self._rules.least_error:
             return None
         self._changed = tick.time
@@ -292,7 +296,7 @@ class StepAdjustment:
             place = planned
         # Down to its last tick: a phase has to have a length.
         longer = min(0.0, tick.time + self._period - phase.end) if phase.swing and self._adjusted == step else 0.0
-        if longer > -1.5 * self._period and not any(move):
+        if longer > -1.5 * self._period and not any(move):  # derived: of whole ticks, more than one
             return None
         reason = "landed beside its place" if any(move) else "landed early"
         return _moved(replace(planned, yaw=place.yaw), step, move, reason, longer)
@@ -321,6 +325,7 @@ class StepAdjustment:
         soonest, latest = self._bounds(tick, left)
         planned = tick.plan.foothold(tick.phase.step)
         slope = _slope(tick, pendulum)
+        # derived: a tenth without confidence (`price_place`)
         price = rules.price_place * (0.1 + 0.9 * rules.confidence)
 
         def tried(time: float) -> _Choice:

@@ -24,7 +24,7 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 
-# of the leg that a step is taken shorter at most: the next one, longer by as much, has to stay about its place
+# chosen: of the leg that a step is taken shorter at most: the next one, longer by as much, has to stay about its place
 _MOST = 1 / 20
 
 

@@ -17,7 +17,7 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 
-_PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
+_PEAK = 5.774  # nature: largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
 
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
@@ -30,14 +30,16 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
         pause: Between two changes in s.
     """
 
-    least_error: float = share(0.04, "sole", 0, 0.2)
-    price: float = share(0.0206, "leg/beat", 0, 10)
-    longest: float = number(0.15, "1", 0, 5)
-    least_left: float = fixed(0.809, "beat")  # Time in s before touchdown from which a foot is not hurried
-    acceleration: float = fixed(0.816, "leg/beat^2")  # Largest of a foot that is hurried in m/s^2
-    # Longest double support, as a share of a single one; none ends sooner, for feet have to take over
+    least_error: float = share(0.04, "sole", 0, 0.2)  # derived: as of step adjustment
+    price: float = share(0.0206, "leg/beat", 0, 10)  # derived: as of step adjustment
+    longest: float = number(0.15, "1", 0, 5)  # measured: with half of a single support h1 withstands less
+    # Time in s before touchdown from which a foot is not hurried; chosen: 0.2 s on h1, in which a foot comes down
+    least_left: float = fixed(0.809, "beat")
+    # Largest of a foot that is hurried in m/s^2; derived: as of step adjustment
+    acceleration: float = fixed(0.816, "leg/beat^2")
+    # chosen: Longest double support, as a share of a single one; none ends sooner, for feet have to take over
     longest_double: float = fixed(2.5, "1")
-    pause: float = share(0.162, "beat", 0, 5)
+    pause: float = share(0.162, "beat", 0, 5)  # chosen: 40 ms, eight ticks
 
 
 class StepTiming:
@@ -69,7 +71,7 @@ class StepTiming:
         if missed(left) < rules.least_error:
             return None
         change = self._best_change(tick, missed, left)
-        if abs(change) < 1.5 * self._period:
+        if abs(change) < 1.5 * self._period:  # derived: of whole ticks, more than one
             return None
         self._changed = tick.time
         reason = "DCM behind" if change > 0.0 else "DCM ahead"
@@ -89,6 +91,7 @@ class StepTiming:
         best = 0.0
         least = missed(left)
         for sign, most in ((1.0, later), (-1.0, sooner)):
+            # nature: floating point: a quotient of decimals is whole to 1e-12
             for k in range(1, int(most / self._period + 1e-6) + 1):
                 price = rules.price * k * self._period
                 if price >= least:

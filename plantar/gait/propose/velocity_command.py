@@ -26,7 +26,7 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 
-_AHEAD = 2  # steps that follow the command, before the one that closes
+_AHEAD = 2  # chosen: steps that follow the command, before the one that closes
 
 
 @dataclass(frozen=True)
@@ -81,10 +81,11 @@ class Stride(Settings):
         turn: Angle in rad of a foot outwards from the other, shared by both hips.
     """
 
-    lead: ClassVar[float] = 0.25  # Largest lead over the other foot, share of the CoM height
-    opening: ClassVar[float] = 0.22  # Largest step sideways, share of the CoM height
-    turn: float = number(0.5, "rad", 0.01, 1.2)
-    turn_in: ClassVar[float] = 0.2  # Largest angle in rad of a foot inwards
+    # Largest lead over the other foot, share of the CoM height; chosen: 0.2 m on h1, T 4.4.5's step
+    lead: ClassVar[float] = 0.25
+    opening: ClassVar[float] = 0.22  # Largest step sideways, share of the CoM height; chosen: 0.18 m on h1
+    turn: float = number(0.5, "rad", 0.01, 1.2)  # chosen: 0.5 rad, half of a hip's turn
+    turn_in: ClassVar[float] = 0.2  # Largest angle in rad of a foot inwards; chosen: bounded by the heels of both feet
 
 
 @dataclass(frozen=True)
@@ -93,9 +94,9 @@ class Legs:
 
     width: float
     com_height: float
-    heel: float = 0.1
-    toe: float = 0.14
-    inner: float = 0.07
+    heel: float = 0.1  # chosen: of a common sole; callers give their robot's
+    toe: float = 0.14  # chosen: of a common sole; callers give their robot's
+    inner: float = 0.07  # chosen: of a common sole; callers give their robot's
 
     def room(self, out: float) -> float:
         """Extra width in m for a foot turned out or in by an angle in rad, so that heel or toe keep clear.

@@ -11,14 +11,14 @@ from plantar.gait.command import Sensors
 from plantar.gait.estimate.estimator import Posture
 from plantar.kernels.safety.uprightness import Uprightness
 
-_TILTED = 0.5  # cosine of the trunk's tilt below which a robot has fallen: 60 degrees
-_PULLED = 0.6  # cosine by the mean specific force of 0.2 s, which has to agree with the gyro
-_LOW = 0.5  # share of its height below which the CoM of a robot that stands never is
-_OFF = 0.1  # weight: soles with less have left the ground
-_OFF_FOR = 0.3  # s: longer, no walking robot is in the air
-_ANGLE = 3.2  # rad: beyond, and in degrees, an angle shows nothing
-_LIES = 2  # what `Uprightness.update` returns of a base that does
-_FROZEN = 0.12  # s for which a sensor that works may report the same bits
+_TILTED = 0.5  # derived: cosine of the trunk's tilt below which a robot has fallen: 60 degrees
+_PULLED = 0.6  # chosen: cosine by the mean specific force of 0.2 s, which has to agree with the gyro
+_LOW = 0.5  # chosen: share of its height below which the CoM of a robot that stands never is
+_OFF = 0.1  # chosen: weight: soles with less have left the ground
+_OFF_FOR = 0.3  # chosen: s: longer, no walking robot is in the air
+_ANGLE = 3.2  # nature: rad: beyond, and in degrees, an angle shows nothing
+_LIES = 2  # nature: what `Uprightness.update` returns of a base that does
+_FROZEN = 0.12  # derived: s for which a sensor that works may report the same bits; `_STUCK` of the shell
 
 
 class FallCheck:

@@ -7,13 +7,13 @@ from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command
 from plantar.kernels.base.vectors import vector
 
-# leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
+# measured: leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
 _LOWER = 0.15
-_SINK = 0.03
-_DEPTH = 0.08  # leg by which a robot sits lower than it walks; legs that walk crouched by 0.05 reach it
-_SHIFT = 0.3  # weight/beat by which forces of the feet change
-_LIMP = 0.5  # s in which forces and stiffness of a fallen robot go to zero
-_SINKS = 2.0  # s in which those of a robot do that sits, and may stand
+_SINK = 0.03  # chosen: a fifth of `_LOWER`: a sitting robot sinks for as long as a step
+_DEPTH = 0.08  # chosen: leg by which a robot sits lower than it walks; legs that walk crouched by 0.05 reach it
+_SHIFT = 0.3  # chosen: weight/beat by which forces of the feet change
+_LIMP = 0.5  # chosen: s in which forces and stiffness of a fallen robot go to zero
+_SINKS = 2.0  # chosen: s in which those of a robot do that sits, and may stand
 
 SITS = ("blind", "lost", "stopped")
 """States in which a robot sits down."""
@@ -75,6 +75,7 @@ class SafeStop:
         goal[2] = self._height
         com = _nearer(last.com, goal, self._sink)
         across = (left - right)[:2]
+        # nature: floating point: no division by 0
         share = float((com - right)[:2] @ across / max(float(across @ across), 1e-9))
         shares: dict[Side, float] = {"left": min(1.0, max(0.0, share)), "right": min(1.0, max(0.0, 1.0 - share))}
         total = sum(foot.force.item(2) for foot in last.feet.values())

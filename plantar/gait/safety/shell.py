@@ -28,30 +28,32 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.reading import Reading
 
-_STUCK = 0.12  # s for which sensors may report the very same: a train of 0.1 s is walked through
+_STUCK = 0.12  # chosen: s for which sensors may report the very same: a train of 0.1 s is walked through
 # rad, rad/s^2: a joint's speed changes faster only where its encoder jumps; walks reach 80
-_SLIP = 0.02
-_JERK = 800.0
-_SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the last one that could
-_LATE = 0.15  # s of times that cannot be taken, until the state is "late"
-# weight on both soles below which one must be silent, and for how long in s
+_SLIP = 0.02  # chosen: four times the largest zero of a drawn encoder
+_JERK = 800.0  # measured: ten times what walks reach
+_SILENT = 0.06  # chosen: s for which a reading that cannot be taken is bridged by the last one that could
+_LATE = 0.15  # chosen: s of times that cannot be taken, until the state is "late"
+# chosen: weight on both soles below which one must be silent, and for how long in s
 _UNLOADED = 0.3
-_WEIGHTLESS = 0.04
-_ROLLED = 0.06  # rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
-_FLAT = 0.5  # spread of the load of a flat sole, of that of an even one; a row of taxels has less than 0.3
-_FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
-_LANDING = 0.15  # s of double support within which a foot comes down that lands late
-_EMPTY = 0.05  # weight on both soles of a robot that stands on both feet, below which both are silent
-_UNKNOWN = 2.0  # s after which a blind robot sits, and goes limp where neither IMU nor soles show that it stands
-_STALLED = 0.1  # s by which a tick comes late, and is noted
-_OFTEN = 0.3  # missed ticks of each, in the mean of 20
-_AGAIN = 2.0  # s in which what is noted is not noted again
-_OFF = 0.5  # rad by which a joint misses its target; with a quarter of the drives' stiffness knees miss it by 0.3
-_OFF_FOR = 0.015  # s after which it is off
-_MOST_OFF = 2  # joints whose encoders fail at a time; more are moved from outside, as by a blow
+_WEIGHTLESS = 0.04  # chosen: 40 ms: impacts unload a foot for less
+_ROLLED = 0.06  # measured: rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
+_FLAT = 0.5  # derived: spread of the load of a flat sole, of that of an even one; a row of taxels has less than 0.3
+_FALLEN = 0.5  # derived: cosine of the trunk's tilt, and share of its height, below which a robot has fallen
+_LANDING = 0.15  # chosen: s of double support within which a foot comes down that lands late
+_EMPTY = 0.05  # chosen: weight on both soles of a robot that stands on both feet, below which both are silent
+# chosen: s after which a blind robot sits, and goes limp where neither IMU nor soles show that it stands
+_UNKNOWN = 2.0
+_STALLED = 0.1  # chosen: s by which a tick comes late, and is noted; twenty ticks
+_OFTEN = 0.3  # chosen: missed ticks of each, in the mean of 20
+_AGAIN = 2.0  # chosen: s in which what is noted is not noted again; a log alone depends on it
+# measured: rad by which a joint misses its target; with a quarter of the drives' stiffness knees miss it by 0.3
+_OFF = 0.5
+_OFF_FOR = 0.015  # chosen: s after which it is off; three ticks
+_MOST_OFF = 2  # chosen: joints whose encoders fail at a time; more are moved from outside, as by a blow
 # What the soles' check returns of those that it cannot take as they are, and of those that carry the robot
-_UNREAD = -1
-_CARRY = 1
+_UNREAD = -1  # nature: a code
+_CARRY = 1  # nature: a code
 _FINAL = ("fallen", "limp", "released")
 _PROBLEMS = ("", "a joint angle that no robot has", "an IMU reading that no robot has", "IMU stuck", "encoders stuck")
 
@@ -166,7 +168,7 @@ class SafetyShell:
         late = self._clock.late
         if late:
             self._soles.skip()
-        self._missed += 0.05 * (late - self._missed)
+        self._missed += 0.05 * (late - self._missed)  # derived: the mean of 20
         if self._clock.jumped or self._clock.odd or self._missed > _OFTEN:
             self._note_clock(self._clock.jumped)
         try:
@@ -337,6 +339,7 @@ class SafetyShell:
             return False
         along = self._positions[stance] @ (rotation.T @ np.array([x, y, 0.0]))
         load = np.maximum(np.nan_to_num(readings[stance].force), 0.0)
+        # nature: floating point: 0 / 0 is 0
         spread = float(load @ (along - load @ along / max(load.sum(), 1e-9)) ** 2) / max(float(load.sum()), 1e-9)
         return spread > (_FLAT * float(along.std())) ** 2
 
@@ -363,6 +366,7 @@ class SafetyShell:
             self._joints = len(joints) if self._joints is None else self._joints
             self._body = BodyCheck(self._joints, self._stuck, max(_SLIP, _JERK * self._period**2))
         found = self._body.check(joints, gyro, accelerometer, 1 + self._clock.late)
+        # nature: a code of the check, from which nothing that came can be
         return found if found < 3 or self._last.phase.kind != PhaseKind.STANDING else 0
 
     def _readings(self, sensors: Sensors, time: float) -> Readings | None:
@@ -424,13 +428,14 @@ class SafetyShell:
         weight = self._weight
         phase = self._last.phase
         if phase.kind != PhaseKind.STANDING:
+            # derived: `_EMPTY`: a sole that may be in the air repeats its zeros
             if soles.left_same >= self._stuck and soles.left > 0.05 * weight:
                 return "left"
-            if soles.right_same >= self._stuck and soles.right > 0.05 * weight:
+            if soles.right_same >= self._stuck and soles.right > 0.05 * weight:  # derived: `_EMPTY`
                 return "right"
         if self._lost is not None:
             own = soles.left if self._lost == "left" else soles.right
-            if own > 0.1 * weight:
+            if own > 0.1 * weight:  # derived: twice `_EMPTY`: a lost sole that carries again
                 self._lost = None
             return self._lost
         light = soles.left + soles.right < _UNLOADED * weight
@@ -449,6 +454,7 @@ class SafetyShell:
         if self._last.phase.stance == other and total < _UNLOADED * self._weight:
             return None  # both are silent
         rest = self._weight - total
+        # derived: three times `_EMPTY`: less is the noise of both soles
         rest = rest if rest > 0.15 * self._weight and self._last.phase.swing != lost else 0.0
         count = self._counts[lost]
         found: dict[Side, Reading] = {
@@ -477,4 +483,5 @@ def _sound(readings: Readings, side: Side, count: int) -> Reading | None:
 
 def _is_carried(accelerometer: NDArray[np.float64]) -> bool:
     """Whether the specific force is that of a robot on its feet, not that of a drop or a blow."""
+    # chosen: wide of the 0.7 to 1.3 of a walk without impacts
     return 0.6 * GRAVITY < math.hypot(*accelerometer.tolist()) < 1.6 * GRAVITY

@@ -13,20 +13,21 @@ from plantar.kernels.safety.taxel_watch import TaxelWatch
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
 
-# weight, and share of what the accelerometer shows, that both soles report of a robot that walks; by the gains of their
-# taxels, those of drawn plants of level 3 reach 1.3 on two corners
+# measured: weight, and share of what the accelerometer shows, that both soles report of a robot that walks; by the
+# gains of their taxels, those of drawn plants of level 3 reach 1.3 on two corners
 _HEAVY = 1.4
-_REST = 0.75  # weight that they report without the taxel; one corner of a real foothold carries up to 0.8 alone
-_MOST = 0.15  # weight on a taxel that is not looked at; a flat sole of 42 has 0.024 each
-_ALONE = 4.0  # times its neighbours' forces, as none of a flat or tilted sole has
-_CONFIRMED = 0.04  # s; impacts are shorter
-_AIR = 0.02  # weight on a taxel in the air: ten times the noise of an H1's
-_AIR_FOR = 0.06  # s; a swing whose foot touches something early ends within 0.03 s
-_FEW = 0.1  # share of a sole's taxels; more of them that report in the air touch something
-# of a single support in which the foot is up by plan, as where the estimator takes its zero, and the other one
+# measured: weight that they report without the taxel; one corner of a real foothold carries up to 0.8 alone
+_REST = 0.75
+_MOST = 0.15  # chosen: weight on a taxel that is not looked at; a flat sole of 42 has 0.024 each
+_ALONE = 4.0  # chosen: times its neighbours' forces, as none of a flat or tilted sole has
+_CONFIRMED = 0.04  # chosen: s; impacts are shorter
+_AIR = 0.02  # derived: weight on a taxel in the air: ten times the noise of an H1's
+_AIR_FOR = 0.06  # measured: s; a swing whose foot touches something early ends within 0.03 s
+_FEW = 0.1  # chosen: share of a sole's taxels; more of them that report in the air touch something
+# derived: of a single support in which the foot is up by plan, as where the estimator takes its zero, and the other one
 # carries a share of the weight
 _UP = (0.2, 0.5)
-_CARRIED = 0.7
+_CARRIED = 0.7  # chosen: bounded by a half, which two feet carry each
 
 Readings = Mapping[Side, Reading]
 

@@ -2,11 +2,11 @@
 
 import math
 
-_NEAR = 0.5  # periods that a tick may come early or late by and still be taken as it is
-_FOLLOWED = 0.1  # s that a clock may be off by and still be followed, slowly
-_STALLED = 0.5  # s of a stall beyond which joints are not expected to move farther
-_DRAWN = 0.02  # share of an error that a tick follows
-_MOST_DRAWN = 0.2  # periods by which a tick is longer or shorter for that
+_NEAR = 0.5  # derived: periods that a tick may come early or late by and still be taken as it is
+_FOLLOWED = 0.1  # chosen: s that a clock may be off by and still be followed, slowly
+_STALLED = 0.5  # chosen: s of a stall beyond which joints are not expected to move farther
+_DRAWN = 0.02  # chosen: share of an error that a tick follows
+_MOST_DRAWN = 0.2  # chosen: periods by which a tick is longer or shorter for that
 
 
 class TickClock:

@@ -14,12 +14,15 @@ from plantar.kernels.base.vectors import vector
 from plantar.kernels.gait.leaning_torso import leaning_torso
 from plantar.mechanics.base_state import BaseState
 
-_ROUND = 0.2  # of the way aside over which the lean ends
-# beats in which the torso comes to lean as far as a leg needs that carries for longer than a step; with 2 a hip that is
-# at its limit then stays there
+_ROUND = 0.2  # chosen: of the way aside over which the lean ends
+# measured: beats in which the torso comes to lean as far as a leg needs that carries for longer than a step; with 2 a
+# hip that is at its limit then stays there
 _LEANS = 1.0
-_MIDWAY = 0.5  # of the way from the standing foot to a lower one, where a double support holds the body
-_FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
+# derived: of the way from the standing foot to a lower one, where a double support holds the body: as far to either
+_MIDWAY = 0.5
+# chosen: rad/beat, natural frequency of the CoM's height over ground that goes up and down; 8 rad/s on h1, twice the
+# pendulum's
+_FOLLOWS_GROUND = 1.98
 
 
 class BodyTargets:
@@ -61,6 +64,7 @@ class BodyTargets:
         if not holds:
             change = -change
         self._leans = min(1.0, max(0.0, self._leans + change))
+        # nature: the cubic without speed at both ends, 3 s^2 - 2 s^3
         share = self._leans * self._leans * (3.0 - 2.0 * self._leans)
         return max(own, lean) + share * min(own, lean)
 

@@ -124,7 +124,9 @@ class Estimation:
             sensors.accelerometer,
             sensed.soles,
             acceleration,
-            phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,  # in the air: it finds its zero
+            # in the air: it finds its zero; derived: `_UP` of the taxels' check: in this part of a swing the foot is up
+            # by plan
+            phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,
             self.push_on_skin(sensors),
             swing,
         )

@@ -20,7 +20,8 @@ from plantar.mechanics.contact import Contact
 from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.wrench_cone import Rectangle
 
-_CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
+# nature: sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
+_CONTACT_OFFSET = 0.0433
 
 
 class FootTargets:
@@ -29,6 +30,7 @@ class FootTargets:
     def __init__(self, settings: ControllerSettings, footing: Footing) -> None:
         self._footing = footing
         self._offset = _CONTACT_OFFSET * settings.body.sole
+        # derived: a tenth of a millimetre on h1, below which a contact is the same
         self._fine = 6000.0 / settings.body.leg
         self._rectangles: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
         self._contacts: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], Contact]] = {}
@@ -110,6 +112,7 @@ class FootTargets:
         frame = self._footing.frame
         fine = self._fine
         x, y, z = frame.offset
+        # derived: a tenth of a milliradian, likewise
         return round(x * fine), round(y * fine), round(z * fine), round(frame.turn * 1e4)
 
     def _contact(self, side: Side, crept: tuple[int, ...]) -> Contact:

@@ -36,8 +36,9 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import heading
 
-_PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
-_MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed off its place is commanded away from it at most
+# derived: weight on a foot that probes the ground from which its centre of pressure turns it; `touch_force`
+_PROBING = 0.0237
+_MAX_LANDING_OFFSET = 0.25  # chosen: leg that a foot that has landed off its place is commanded away from it at most
 
 
 class Footing:
@@ -75,6 +76,7 @@ class Footing:
         self.contacts = FootContacts(s.contact, layouts, s.ankle_reach, limits, s.ground_map.sensing_range)
         damping = DampingGains().for_body(s.body)
         self.damping = {side: LandingCompliance(s.period, damping) for side in SIDES}
+        # chosen: gone before the next swing begins
         self.compensation = PostureCompensation.for_body(s.body, s.period, 0.7 * s.timing.double_support)
         self.guard = None if s.feasibility is None else StepGuard(s.feasibility, layouts)
         self.conformity = None

@@ -25,8 +25,8 @@ from plantar.gait.propose.step_in_reach import StepInReach
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.layouts.layout import SoleLayout
 
-_NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where there is no ground
-_SHORTEST_WALK = 1 / 12  # leg: a walk that is shorter has no direction
+_NO_GROUND = 0.8  # chosen: of the taxels' sensing range: a sole that stands sees this far only where there is no ground
+_SHORTEST_WALK = 1 / 12  # chosen: leg: a walk that is shorter has no direction
 
 
 def proposers(

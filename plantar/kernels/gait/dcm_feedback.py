@@ -143,8 +143,8 @@ class DcmFeedback:
         return convex.nearest(region, x, y)
 
 
-_LEFT = 1
-_RIGHT = 2
+_LEFT = 1  # nature: a bit of its own for each foot
+_RIGHT = 2  # nature: a bit of its own for each foot
 
 
 def shared_load(zmp, acceleration, mass, gravity, left, right, stance):

@@ -332,7 +332,7 @@ class FloatingBase:
         size = math.sqrt(x * x + y * y + z * z)
         # A swing jerks the base one way and brakes it longer the other way: the mean over a stride is gravity, of what
         # is left of it without its larger part it is not. Only hard impacts are left out, which sampling may miss.
-        if 0.2 * self.gravity < size < 3.0 * self.gravity:
+        if 0.2 * self.gravity < size < 3.0 * self.gravity:  # chosen: wide of the 0.7 to 1.3 of a walk without impacts
             # While the robot holds still, the running mean of what came so far; then a slow filter. (Balance control
             # has to wait that long: it would sway the robot by a wrong tilt and the sway would look like more tilt.)
             self.samples += 1

@@ -10,7 +10,8 @@ from . import highest_ground
 __all__ = ["GroundSight"]
 
 _INFINITE = float("inf")
-_SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
+# of the median of the absolute values of normal noise; nature: 1 over the upper quartile of the normal distribution
+_SIGMA_OF_MEDIAN = 1.4826
 
 
 class GroundSight:

@@ -5,13 +5,20 @@ import math
 __all__ = ["highest_plane"]
 
 _INFINITE = float("inf")
-_TOLERANCE = 1.0  # standard deviations of a reading that a point may lie off the plane that is the ground
-_TOLERANCE_OF_MEAN = 4.0  # the same in those of the mean of the readings behind it: what few of them show is noise
-_CUTS = 8  # times at most that the plane is fitted to what of the ground is left
-_POLISHES = 3  # times at most that it is fitted again to all points on it
-_LEAST_POINTS = 6
-_LEAST_SPREAD = 0.115  # of the variance of all taxels across the sole: the least of points that carry a plane
-_IN_A_ROW = 0.02  # share of the product of the variances below which the points are in a row
+# standard deviations of a reading that a point may lie off the plane that is the ground; chosen: bounded by a taxel's
+# noise and by the lowest step that counts
+_TOLERANCE = 1.0
+# the same in those of the mean of the readings behind it: what few of them show is noise; nature: one normal value in
+# 16,000 is farther off
+_TOLERANCE_OF_MEAN = 4.0
+_CUTS = 8  # times at most that the plane is fitted to what of the ground is left; chosen: a bound on a tick's time
+_POLISHES = 3  # times at most that it is fitted again to all points on it; chosen: a bound on a tick's time
+_LEAST_POINTS = 6  # derived: twice the three points that span a plane
+# of the variance of all taxels across the sole: the least of points that carry a plane; derived: a strip of a third of
+# the sole has 1/9
+_LEAST_SPREAD = 0.115
+# share of the product of the variances below which the points are in a row; chosen: one row of taxels has 0
+_IN_A_ROW = 0.02
 
 
 def highest_plane(x, y, distance, readings, noise, least, used, plane):

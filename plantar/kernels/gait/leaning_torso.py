@@ -23,7 +23,9 @@ def leaning_torso(com, left, right, yaw, reach, lean, rounded):
     across = -d * dx + c * dy
     # Rounded where it ends: a kink would jerk the trunk.
     aside = math.fabs(across)
+    # derived: the rounding begins as far before the reach, 0.05, as what it takes away needs to stay monotone
     over = min(max(aside - 0.95 * reach, 0.0), rounded * reach)
+    # derived: 0.95 as above, where the rounding ends
     aside = min(aside, (0.95 + rounded) * reach) - over * over / (2.0 * rounded * reach)
     roll = -lean * math.copysign(aside, across)
     e = math.cos(roll)

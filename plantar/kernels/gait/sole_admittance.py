@@ -6,7 +6,9 @@ from ..mechanics import rotations
 __all__ = ["SoleAdmittance", "pressed", "risen", "turned"]
 
 
-_NONE = 1e-7  # rad and m: below what any servo resolves a correction that fades is exactly none
+# rad and m: below what any servo resolves a correction that fades is exactly none; derived: a tenth of a micrometre or
+# microradian, a thousandth of an encoder's step
+_NONE = 1e-7
 
 
 class SoleAdmittance:

@@ -7,12 +7,15 @@ from ..base import vectors
 __all__ = ["SwingPath"]
 
 # Shares of a swing with slow approach:
-_APPROACH_SHARE = 0.44  # that it takes at the end
-_ARRIVED_SHARE = 0.61  # after which the foot moves only downwards
-_RISE_SHARE = 0.28  # spent rising at most: the next stone may be 30 mm higher, and the toe is soon above it
-_HIGH_SHARE = 0.34  # after which it comes down: what moves under the foot meanwhile has to pass below it
-_FIRST_SHARE = 0.14  # after which one that rises first moves horizontally: half of its height
-_SKEW = 0.8  # Exponent below 1 that moves its horizontal motion forward, so that it brakes gently
+_APPROACH_SHARE = 0.44  # chosen: that it takes at the end; more leaves the knee less time for the rest
+# chosen: after which the foot moves only downwards; above `1 - _APPROACH_SHARE`, so that the descent begins over the
+# foothold
+_ARRIVED_SHARE = 0.61
+_RISE_SHARE = 0.28  # chosen: spent rising at most: the next stone may be 30 mm higher, and the toe is soon above it
+_HIGH_SHARE = 0.34  # chosen: after which it comes down: what moves under the foot meanwhile has to pass below it
+# derived: after which one that rises first moves horizontally: half of its height; half of `_RISE_SHARE`
+_FIRST_SHARE = 0.14
+_SKEW = 0.8  # chosen: Exponent below 1 that moves its horizontal motion forward, so that it brakes gently
 
 
 class SwingPath:
@@ -73,6 +76,7 @@ class SwingPath:
         lasting = _APPROACH_SHARE * self.duration
         speed = max(self.speed, self.approach / lasting)
         since = time - (self.duration - lasting)
+        # chosen: a fifth of the height is left to the fast part, else a low swing would crawl from its top
         low = end + min(self.approach, 0.8 * (top - end))
         if since >= 0.0:
             return low - speed * since
@@ -83,6 +87,7 @@ class SwingPath:
         pull = -speed * length
         s3 = s * s * s
         return top + s3 * (
+            # nature: the quintic that ends at rest and begins with a speed: coefficients 10, -15, 6 and 4, -7, 3
             (10.0 * drop - 4.0 * pull) + s * ((7.0 * pull - 15.0 * drop) + s * (6.0 * drop - 3.0 * pull))
         )
 
@@ -93,4 +98,5 @@ def _eased(phase):
         return 0.0
     if phase >= 1.0:
         return 1.0
+    # nature: the minimum jerk polynomial 10 s^3 - 15 s^4 + 6 s^5
     return phase * phase * phase * (10.0 + phase * (6.0 * phase - 15.0))

@@ -10,11 +10,14 @@ from . import hull
 
 __all__ = ["anchor", "clean_ring", "extent", "turning"]
 
-_BOUND = 3.3306690738754716e-16  # Shewchuk's bound A of a turn's rounding, relative to its two products
-_UNDERFLOW = 1e-280  # m^2: products up to this are rounding
-_NEAR = 4.4e-16  # of the ring's size: neighbours within it are one vertex
-_LARGEST = 1e100  # coordinates in m beyond this count as not finite, as by `hull`
-_SMALLEST = 1e-100  # m: products of the edges of a smaller ring may underflow
+_BOUND = 3.3306690738754716e-16  # nature: Shewchuk's bound A of a turn's rounding, relative to its two products
+# m^2: products up to this are rounding; nature: floating point, whose subnormal products are below 1e-308
+_UNDERFLOW = 1e-280
+_NEAR = 4.4e-16  # of the ring's size: neighbours within it are one vertex; nature: floating point, two roundings
+_LARGEST = 1e100  # coordinates in m beyond this count as not finite, as by `hull`; nature: floating point
+# m: products of the edges of a smaller ring may underflow; nature: floating point, the fourth root of the smallest
+# number is 1e-77 and four lengths are multiplied by pairs
+_SMALLEST = 1e-100
 
 
 def turning(polygon, x0, y0, near):

@@ -304,6 +304,7 @@ class OutlineRectangles:
         """Find the lines across through the vertices, and each vertex's; their number."""
         m = self.m
         lines = 0
+        # nature: floating point, fifty roundings of the ring's width
         tolerance = 1e-14 * (self.xs[self.order[m - 1]] - self.xs[self.order[0]])
         for k in range(m):
             i = self.order[k]

@@ -23,11 +23,16 @@ __all__ = [
     "signed_margin",
 ]
 
-_LARGEST = 1e100  # coordinates in m beyond this count as not finite: their products would overflow
+# coordinates in m beyond this count as not finite: their products would overflow; nature: floating point
+_LARGEST = 1e100
 _INFINITE = float("inf")
 _NONE = float("nan")
-_NOISE = 1e-15  # of a polygon's extent: corners of its inner offset that are nearer to each other are one
-_FEW = 64  # vertices: room for polygons of up to so many is kept
+# nature: of a polygon's extent: corners of its inner offset that are nearer to each other are one; five roundings of
+# floating point
+_NOISE = 1e-15
+# vertices: room for polygons of up to so many is kept; chosen: a speed alone depends on it; footprints have up to 40
+# corners
+_FEW = 64
 
 
 def area(polygon):
@@ -89,8 +94,9 @@ def area_and_centroid(polygon):
         size = max(size, max(abs(bx), abs(by)))
         ax = bx
         ay = by
-    if abs(total) <= 1e-14 * size * size:
+    if abs(total) <= 1e-14 * size * size:  # nature: floating point, fifty roundings of the area's terms
         return 0.5 * total, x0 + mx / k, y0 + my / k
+    # nature: the centroid of a triangle is a third of its corners
     return 0.5 * total, x0 + cx / (3.0 * total), y0 + cy / (3.0 * total)
 
 
@@ -124,6 +130,7 @@ def _nearest(polygon, turn, x, y):
             deepest = min(deepest, -across / math.sqrt(length2))
         ax = bx
         ay = by
+    # nature: floating point, the square of a hundred roundings (3e-14), and 1e-14 those of an area
     if inside and (deepest * deepest > 1e-27 * k * span or abs(area(polygon)) > 1e-14 * span):
         return deepest, x, y  # else it has no area, and nothing is inside
     # Every edge counts: where several are on one line, rounding decides which of them a point lies outside of.
@@ -347,7 +354,7 @@ def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
     if left == 0:  # nothing is left: bisect for the depth of the deepest point
         low = 0.0
         high = distance if distance < reach else reach
-        while high - low > 2e-16 * reach:
+        while high - low > 2e-16 * reach:  # nature: floating point, one rounding: the bisection ends at the last bit
             middle = 0.5 * (low + high)
             if not low < middle < high:
                 break

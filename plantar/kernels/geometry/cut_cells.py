@@ -78,8 +78,8 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
                 area += part
                 mx += part * (ax + bx)
                 my += part * (ay + by)
-            mx = area * ox + mx / 3.0
-            my = area * oy + my / 3.0
+            mx = area * ox + mx / 3.0  # nature: 3.0, a triangle's centroid is a third of its corners
+            my = area * oy + my / 3.0  # nature: a triangle's centroid is a third of its corners
             for k in range(size):
                 j = tags[now, k]
                 if j >= 0:

@@ -4,10 +4,14 @@ import numpy as np
 
 __all__ = ["convex_hull", "gather", "hull_of_cloud", "hull_ring", "hull_tolerance", "turn_is_left"]
 
-_LARGEST = 1e100  # coordinates in m beyond this count as not finite: their products would overflow
-_SMALLEST = 1e-100  # points within a box of this size in m are one: the products of their distances would underflow
-_TINY = 1e-120  # coordinates in m up to this count as 0: exact turns are made of products, which must not underflow
-_SHORT = 64  # points up to this number are sorted by insertion
+# nature: coordinates in m beyond this count as not finite: their products would overflow; floating point
+_LARGEST = 1e100
+# nature: points within a box of this size in m are one: the products of their distances would underflow; floating point
+_SMALLEST = 1e-100
+# nature: coordinates in m up to this count as 0: exact turns are made of products, which must not underflow; floating
+# point
+_TINY = 1e-120
+_SHORT = 64  # points up to this number are sorted by insertion; chosen: a speed alone depends on it
 _INFINITE = float("inf")
 
 
@@ -16,15 +20,16 @@ def hull_tolerance(largest, extent):
 
     `largest`: largest absolute coordinate in m; `extent`: larger side of points' box in m.
     """
+    # nature: floating point, four roundings of the coordinates; no more than 1e-13 of what they span
     return min(8.9e-16 * largest, 1e-13 * extent)
 
 
 def _product_tail(a, b, product):
     """Rounding error of `product` = a * b, exact (Dekker; Veltkamp's split)."""
-    t = 134217729.0 * a
+    t = 134217729.0 * a  # nature: floating point, 2^27 + 1 (Veltkamp)
     a_high = t - (t - a)
     a_low = a - a_high
-    t = 134217729.0 * b
+    t = 134217729.0 * b  # nature: floating point, 2^27 + 1 (Veltkamp)
     b_high = t - (t - b)
     b_low = b - b_high
     return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
@@ -78,7 +83,7 @@ def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
     one = dx * ly
     two = dy * lx
     turn = one - two
-    bound = 3.330669073875472e-16 * (abs(one) + abs(two))  # Shewchuk's bound A of this difference
+    bound = 3.330669073875472e-16 * (abs(one) + abs(two))  # nature: Shewchuk's bound A of this difference
     if turn > bound + tolerance * (abs(lx) + abs(ly)):
         return True
     if turn < -bound or dx * (cx - bx) + dy * (cy - by) >= 0.0:
@@ -94,6 +99,7 @@ def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
     ly = cy - ay
     one = dx * ly
     two = dy * lx
+    # nature: Shewchuk's bound A again
     limit = 3.330669073875472e-16 * (abs(one) + abs(two)) + tolerance * (abs(lx) + abs(ly))
     return abs(one - two) <= limit and dx * (cx - bx) + dy * (cy - by) >= 0.0
 

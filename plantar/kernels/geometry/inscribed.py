@@ -29,7 +29,7 @@ def ends_of_flat(ring, n):
         if reach > size:
             size = reach
             far = i
-    if twice > 2e-14 * size * size:
+    if twice > 2e-14 * size * size:  # nature: floating point, a hundred roundings of an area
         return n
     # The ends are the extremes along the direction to it.
     dx = ring[2 * far] - x0
@@ -124,7 +124,7 @@ def largest_circle(ring, n, work, out):
     x = best_x
     y = best_y
     for step in range(2 * n + 40):
-        depth = _deepest(work, n, x, y, y_low, y_high, 1e-16 * size)
+        depth = _deepest(work, n, x, y, y_low, y_high, 1e-16 * size)  # nature: floating point, half of a rounding
         y = work[3 * n]
         slope = work[3 * n + 1]
         if depth > best:
@@ -132,7 +132,7 @@ def largest_circle(ring, n, work, out):
             best_x = x
             best_y = y
         expected = left_depth + left_slope * (x - left)
-        if slope == 0.0 or (step > 0 and depth >= expected - 1e-16 * size):
+        if slope == 0.0 or (step > 0 and depth >= expected - 1e-16 * size):  # nature: half a rounding
             break
         if slope > 0.0:
             left = x

@@ -34,6 +34,7 @@ def area_and_centroid(points, starts):
             ay = by
     if twice == 0.0:
         return 0.0, x0, y0
+    # nature: the centroid of a triangle is a third of its corners
     return 0.5 * twice, x0 + sx / (3.0 * twice), y0 + sy / (3.0 * twice)
 
 

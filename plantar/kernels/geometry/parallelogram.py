@@ -7,10 +7,10 @@ far chord parallel and equal to AB. While B, C and D stay on their edges the are
 
 __all__ = ["largest_parallelogram"]
 
-_B_ENDS = 0  # what ends a stretch of the walk: B meets a vertex,
-_D_ENDS = 1  # D does,
-_C_ENDS = 2  # C does,
-_C_RETURNS = 3  # or C does, walking back
+_B_ENDS = 0  # what ends a stretch of the walk: B meets a vertex,; nature: a code
+_D_ENDS = 1  # D does,; nature: a code
+_C_ENDS = 2  # C does,; nature: a code
+_C_RETURNS = 3  # or C does, walking back; nature: a code
 
 
 class _ChordWalk:
@@ -22,7 +22,7 @@ class _ChordWalk:
         self.size = 0.0
         for i in range(2 * n):
             self.size = max(self.size, abs(ring[i]))
-        self.slack = 1e-11 * self.size * self.size  # of an area: what rounding moves it by
+        self.slack = 1e-11 * self.size * self.size  # nature: of an area: what rounding moves it by
         self.best = -1.0
         self.corner = 0
         self.side_x = 0.0
@@ -45,6 +45,7 @@ class _ChordWalk:
         while self.b < self.n and self.d < self.n and self.c >= self.b and steps > 0:
             steps -= 1
             self.read_edges()
+            # nature: floating point, 500 roundings: edges that are parallel to rounding
             if self.c >= self.d or self.turn <= 1e-13 * self.lengths():
                 self.slide()
                 continue
@@ -67,7 +68,7 @@ class _ChordWalk:
         for k in range(2, n):
             i = self.a + k if self.a + k < n else self.a + k - n
             reach = ux * (ring[2 * i + 1] - self.y) - uy * (ring[2 * i] - self.x)
-            if reach > height * (1.0 + 1e-12):
+            if reach > height * (1.0 + 1e-12):  # nature: floating point, 5000 roundings of a height
                 height = reach
                 far = k
         return far
@@ -161,8 +162,9 @@ class _ChordWalk:
         if there > here:
             here = there
         if self.q2 < 0.0 and self.t < -0.5 * self.q1 / self.q2 < self.end:
-            here = -0.25 * self.q1 * self.q1 / self.q2
+            here = -0.25 * self.q1 * self.q1 / self.q2  # nature: the extremum of a parabola, q1^2 / 4 q2
         higher = here + self.b0x * py - self.b0y * px + self.slack > self.best
+        # derived: nearly parallel edges, where the bound is no bound, are walked in any case
         return higher or self.turn <= 1e-3 * self.lengths()
 
     def try_places(self, event):
@@ -210,6 +212,7 @@ class _ChordWalk:
         """Whether a point lies on an edge to rounding, relative to its beginning."""
         off = wx * ey - wy * ex
         along = (wx * ex + wy * ey) / (ex * ex + ey * ey)
+        # nature: floating point, fifty roundings of a product and 500 of a quotient
         return abs(off) <= 1e-14 * self.size * (abs(ex) + abs(ey)) and -1e-13 <= along <= 1.0 + 1e-13
 
     def keep(self, ux, uy, vx, vy):

@@ -99,6 +99,7 @@ class _Gap:
             self.slope = self.in_w
             if self.in_x == 0.0:
                 return
+            # nature: floating point, five roundings
             if has_rise and has_fall and self.height >= expected - 1e-15 * self.size:
                 self.slope = mixed  # on both cuts: the optimum
                 return
@@ -209,6 +210,7 @@ class _Widths:
                 return -1.0
             w = 0.5 * (self.right - self.right_height / self.right_slope)
             bound = w * self.under_right(w)
+        # nature: floating point, five roundings
         if bound <= best * (1.0 + 1e-15) or not (self.left < w <= self.right) or (w == self.right and self.has_right):
             return -1.0
         return w
@@ -236,7 +238,7 @@ def largest_rectangle(ring, n, angle, floor, work, out):
             low = i
         if work[2 * i] > work[2 * high]:
             high = i
-    tolerance = 1e-14 * (work[2 * high] - work[2 * low])
+    tolerance = 1e-14 * (work[2 * high] - work[2 * low])  # nature: floating point, fifty roundings of the ring's width
     lower = 2 * n
     bottoms = _chain(work, n, low, high, 1, tolerance, lower)
     upper = lower + 3 * bottoms
@@ -339,4 +341,5 @@ def _chain(work, n, low, high, step, tolerance, at):
 
 def _upright(work, i, j, width, tolerance):
     """Width up to which an edge counts as upright: rounding drowns its slope."""
+    # nature: floating point, the root of a rounding, and ten of it of the width
     return max(tolerance, min(1e-8 * abs(work[2 * j + 1] - work[2 * i + 1]), 1e-7 * width))

@@ -10,9 +10,9 @@ from . import clean, concave, enclosing, inscribed, parallelogram, rectangle
 
 __all__ = ["ConvexShapes"]
 
-_LARGEST = 1e100
+_LARGEST = 1e100  # nature: floating point: coordinates in m beyond count as not finite, as by `hull`
 _INF = math.inf
-_QUARTER = 0.5 * math.pi
+_QUARTER = 0.5 * math.pi  # nature: a right angle in rad
 
 
 class ConvexShapes:
@@ -136,6 +136,7 @@ class ConvexShapes:
             dy = self.ring[2 * j + 1] - self.ring[2 * i + 1]
             along = abs(c * dx + s * dy)
             across = abs(c * dy - s * dx)
+            # nature: floating point, five roundings, up to edges that stand out by a thousandth
             if 1e-15 * across < along < 1e-3 * across:
                 return True
         return False

@@ -16,8 +16,8 @@ __all__ = [
     "turn_back",
 ]
 
-# Angle in rad below which sin a / a and (1 - cos a) / a^2 are 1 and 1/2: what is left out is a^2 / 24 of terms of size
-# a^2, 4e-26.
+# nature: Angle in rad below which sin a / a and (1 - cos a) / a^2 are 1 and 1/2: what is left out is a^2 / 24 of terms
+# of size a^2, 4e-26.
 _SMALL = 1e-6
 
 
@@ -109,6 +109,7 @@ def orthonormalise(rotation, work, out):
     for i in range(3):
         for j in range(3):
             total = rotation[0, i] * rotation[0, j] + rotation[1, i] * rotation[1, j] + rotation[2, i] * rotation[2, j]
+            # nature: a step of Newton's iteration, R (3 I - R^T R) / 2
             work[i, j] = (1.5 if i == j else 0.0) - 0.5 * total
     multiply(rotation, work, out)
 

@@ -9,10 +9,15 @@ from ..base import memory
 __all__ = ["BodyCheck", "SoleCheck", "TargetMoves", "are_finite", "away_from_feet", "height_of_upright"]
 
 _INFINITE = float("inf")
-_FAST = 0.25  # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz
-_TURNED = 12.0  # rad: beyond, no joint of a leg has an angle
-_SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
-_SHOCK = 400.0  # m/s^2
+# rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz; chosen: ten times the speed limits of h1
+_FAST = 0.25
+# rad: beyond, no joint of a leg has an angle; chosen: almost two turns; an encoder in degrees or counts is beyond at
+# once
+_TURNED = 12.0
+# rad/s: faster, no robot turns that is on its feet; chosen: a falling pole of a leg's length turns by 6 rad/s as it
+# hits the ground
+_SPIN = 20.0
+_SHOCK = 400.0  # m/s^2; chosen: 40 g; IMUs of robots end at 16 or 30 g
 
 
 def are_finite(joints, gyro, accelerometer):
@@ -42,7 +47,7 @@ class BodyCheck:
         jumps: Number of jumps so far, the last one of the joint `last_slip`.
     """
 
-    def __init__(self, joints, frozen, slip=0.02):
+    def __init__(self, joints, frozen, slip=0.02):  # derived: `_SLIP` of the shell
         self.joints = joints
         self.frozen = frozen
         self.begun = False
@@ -198,10 +203,11 @@ class SoleCheck:
             new_left, new_right = new_right, new_left
         old_left = self.left
         old_right = self.right
-        near = 0.06 * self.weight
+        near = 0.06 * self.weight  # chosen: five times the noise of the sum of 42 taxels, a quarter of the jump below
         # Soles that are connected the wrong way jump from steady loads; loads that change in every tick are a shock.
         if (
             self.steady
+            # chosen: in standing, soles nearer to each other than a quarter of the weight may exchange loads by a sway
             and math.fabs(old_left - old_right) > 0.25 * self.weight
             and math.fabs(new_left - old_right) < near
             and math.fabs(new_right - old_left) < near

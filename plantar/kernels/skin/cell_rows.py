@@ -39,6 +39,7 @@ def _rows_of_copies(cells, tolerance):
     kinds = {}  # cells of one kind, the first of which stands for them
     for i, cell in enumerate(cells):
         shape = cell - cell[0]
+        # nature: micrometres, to which files state corners
         kind = kinds.setdefault((np.rint(shape * 1e6) + 0.0).tobytes(), [i])
         first = cells[kind[0]]
         if kind[0] == i:
@@ -60,8 +61,10 @@ def _rows_of_copies(cells, tolerance):
             across = where[:, 1] * ux - where[:, 0] * uy
             along = where[:, 0] * ux + where[:, 1] * uy
             order = np.argsort(across, kind="stable")
+            # derived: twice the two tolerances by which two neighbours may be off their rows
             ends = np.flatnonzero(np.diff(across[order]) > 4.0 * tolerance) + 1
             found = [part[np.argsort(along[part], kind="stable")] for part in np.split(order, ends)]
+            # derived: twice the gap above
             if len(found) < len(best) and all(np.ptp(across[part]) <= 8.0 * tolerance for part in found):
                 best = [[kind[i] for i in part.tolist()] for part in found]
         rows += best
@@ -78,8 +81,9 @@ def _is_behind(cell, along):
     after = np.roll(edge, -1, axis=0)
     turns = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
     size = float(length.sum())
-    if not (turns > 1e-6 * size * size / len(cell) ** 2).all():
+    if not (turns > 1e-6 * size * size / len(cell) ** 2).all():  # nature: floating point of single precision
         return np.zeros(len(cell), dtype=bool)
+    # derived: a point just behind the corner; any small share shows the same side
     away = cell[:, None] - 1e-3 * size * along / float(np.hypot(*along)) - cell
     depth = (edge[:, 0] * away[..., 1] - edge[:, 1] * away[..., 0]) / length
-    return depth.min(axis=1) > 1e-6 * size
+    return depth.min(axis=1) > 1e-6 * size  # nature: floating point of single precision

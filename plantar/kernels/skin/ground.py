@@ -13,7 +13,9 @@ __all__ = ["GroundFit", "GroundScratch"]
 
 _NONE = float("nan")
 _INFINITE = float("inf")
-_DRAWS = 80  # triples of taxels that a robust fit tries: with 40 % outliers all but one fit in 10^8 holds a clean one
+# derived: triples of taxels that a robust fit tries: with 40 % outliers all but one fit in 10^8 holds a clean one; 1 -
+# (1 - 0.6^3)^80 = 1 - 3.5e-9
+_DRAWS = 80
 
 
 class GroundScratch:
@@ -139,6 +141,8 @@ class GroundFit:
             nz = ux * vy - uy * vx
             # Neither flat triangles nor planes steeper than 60 degrees or so, which no foot steps on.
             size = ux * ux + uy * uy + vx * vx + vy * vy
+            # derived: 1 / tan(60 degrees)^2 = 1/3, rounded down: steeper planes are no ground; 1e-6 rounding of single
+            # precision
             if not (nz * nz > 0.25 * (nx * nx + ny * ny) and abs(nz) > 1e-6 * size):
                 continue
             rise_x = -nx / nz
@@ -160,6 +164,7 @@ class GroundFit:
         scratch.plane[1] = best_x
         scratch.plane[2] = best_y
         _misses(seen, scratch)
+        # nature: Rousseeuw and Leroy 1987, Robust Regression: 2.5 sigma, 1.4826 (1 + 5 / (n - p)) median of the misses
         limit = max(tolerance, 2.5 * 1.4826 * (1.0 + 5.0 / max(seen - 3, 1)) * best)
         for i in range(seen):
             scratch.kept[i] = scratch.miss[i] <= limit
@@ -229,8 +234,8 @@ def _least_squares(seen, scratch):
     rise_x = 0.0
     rise_y = 0.0
     directions = 0
-    if large > 1e-18 * count:  # else one place: 1 nm
-        if small <= 1e-9 * large:
+    if large > 1e-18 * count:  # nature: else one place: 1 nm
+        if small <= 1e-9 * large:  # nature: floating point, the root of a rounding, of a ratio of variances
             angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
             c = math.cos(angle)
             s = math.sin(angle)

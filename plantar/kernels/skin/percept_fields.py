@@ -106,7 +106,7 @@ class PerceptFields:
 
 
 _LARGEST = 1e300
-"""`plantar.common.arguments.LARGEST`: what is beyond it is looked at by `checked`."""
+"""`plantar.common.arguments.LARGEST`: what is beyond it is looked at by `checked`. Nature: floating point."""
 
 
 class ReadingFields:

@@ -15,8 +15,8 @@ __all__ = ["SoleKernel", "SoleScratch"]
 
 _NONE = float("nan")
 _INFINITE = float("inf")
-_NOT_LOWER = 1  # bits of a corner: where its cell keeps it from being on the hull
-_NOT_UPPER = 2
+_NOT_LOWER = 1  # nature: bits of a corner: where its cell keeps it from being on the hull
+_NOT_UPPER = 2  # nature: the next bit
 
 
 class SoleScratch:
@@ -478,5 +478,6 @@ def _signs(cell, rank):
     along = high - low
     away = cell - low
     above = along[0] * away[:, 1] - along[1] * away[:, 0]
+    # nature: floating point, far above roundings of a cell's size and far below a taxel
     sure = 1e-9 * float((along * along).sum())
     return np.where(above > sure, _NOT_LOWER, np.where(above < -sure, _NOT_UPPER, 0))
