@@ -23,7 +23,10 @@ def bench(
     ] = None,
     quick: Annotated[bool, Option("--quick", help="scenes, all: the most telling ones, once.")] = False,
     policy: Annotated[
-        Path | None, Option(help="footholds: Python file with make_policy(task). Default: the built-in controller.")
+        Path | None,
+        Option(
+            help="footholds: Python file with make_policy(task), or zero, net-force, ankles or plantar. Default: all."
+        ),
     ] = None,
     seeds: Annotated[int, Option(min=1, help="footholds: runs of each trial.")] = 100,
     output: Output = Path("out/bench"),
@@ -45,8 +48,9 @@ def bench(
     masses and gains): exit code 1 if one raises or commands what no robot can follow. A second or two each; stress.csv
     goes on where it was left. Not part of all.
 
-    footholds: the built-in controller or your own policy on narrow and uneven ground and under pushes; a second or two
-    a run. footholds.csv goes on where it was left; another policy adds its rows.
+    footholds: the action 0, the built-in controller by its soles' net force, by its ankles and by its taxels, or your
+    own policy, on narrow and uneven ground, under pushes and at velocities; a second or two a run. footholds.csv goes
+    on where it was left; another policy adds its rows.
 
     all: kernels and skip; about 8 minutes of one core, --quick 2.
 

@@ -322,13 +322,18 @@ def _commanded(walk: Mapping[str, Any], commanded: bool) -> Mapping[str, Any]:
     return {**walk, "commands": [[0.0, "stop"]]}
 
 
+def without_taxels(zmp_source: str) -> dict[str, Any]:
+    """A [control] table for which every foothold is a whole sole, with a source of loads and ZMP."""
+    return {**_NO_TAXELS, "zmp_source": zmp_source}
+
+
 def _without_taxels(control: Mapping[str, Any], soles: str) -> Mapping[str, Any]:
     """A [control] table that fits what measures the `soles`; SceneError for what they do not."""
     if soles not in _SOLES:
         raise SceneError(f"soles is {soles!r}; allowed: {', '.join(_SOLES)}")
     if soles == "taxels":
         return control
-    without = {**_NO_TAXELS, "zmp_source": "force_torque" if soles == "force_torque" else "skin"}
+    without = without_taxels("force_torque" if soles == "force_torque" else "skin")
     for name, value in without.items():
         if control.get(name, value) != value:
             raise SceneError(f"[control] {name} is {control[name]!r}; allowed for soles = {soles!r}: {value!r}")

@@ -8,7 +8,7 @@ from importlib.util import find_spec
 
 from plantar.common.optional_library import need_libraries
 
-__all__ = ["ENVIRONMENTS", "register"]
+__all__ = ["ENVIRONMENTS", "FOOTHOLDS", "register"]
 
 ENVIRONMENTS = {
     "PlantarStand-v0": "stand",
@@ -17,6 +17,9 @@ ENVIRONMENTS = {
     "PlantarBoard-v0": "board",
 }
 """Id and task of each environment."""
+
+FOOTHOLDS = "PlantarFootholds-v0"
+"""Id of the trials of `plantar bench footholds`."""
 
 _STEPS = 500  # of 20 ms: episodes of 10 s
 
@@ -34,6 +37,8 @@ def register() -> None:
                 max_episode_steps=_STEPS,
                 kwargs={"task": task},
             )
+    if FOOTHOLDS not in gymnasium.registry:
+        gymnasium.register(FOOTHOLDS, "plantar.sim.bench.footholds.environment:FootholdEnv")
 
 
 if find_spec("gymnasium") and find_spec("mujoco"):

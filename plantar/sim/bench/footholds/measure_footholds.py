@@ -10,7 +10,7 @@ from plantar.bench.intervals import wilson_interval
 from plantar.bench.kind import BenchOptions, Case, Finding, Kind, PageTable, Row
 from plantar.errors import InputError, SceneError
 from plantar.sim.bench.footholds.foothold_run import TRIALS, Trial, run_trial
-from plantar.sim.bench.footholds.policy import OwnController, load_policy
+from plantar.sim.bench.footholds.policy import BASELINES, load_policy
 
 _QUICK_SEEDS = 1
 _KEYS = ("policy", "robot", "kind", "value", "seed")
@@ -22,9 +22,9 @@ def _cases(options: BenchOptions) -> list[Case]:
     seeds = _QUICK_SEEDS if options.quick else options.seeds
     if seeds < 1 or set(kinds) - set(known):
         raise InputError(f"{seeds} seeds of {', '.join(kinds) or 'all'}; allowed: 1 or more of {', '.join(known)}")
-    make, name = (OwnController, "plantar") if options.policy is None else _own(options.policy)
     return [
         Case((name, robot, trial.kind, f"{trial.value:g}", str(seed)), partial(_run, make, trial, robot, seed))
+        for name, make in _policies(options.policy).items()
         for robot in (options.robot or ("h1",))
         for trial in TRIALS
         if not kinds or trial.kind in kinds
@@ -32,9 +32,17 @@ def _cases(options: BenchOptions) -> list[Case]:
     ]
 
 
-def _own(policy: Path) -> tuple[Any, str]:
-    """A policy, and the name of its file and content: rows of a changed one are no longer its own."""
-    return load_policy(policy), f"{policy.stem}-{hashlib.sha256(policy.read_bytes()).hexdigest()[:6]}"
+def _policies(policy: Path | None) -> dict[str, Any]:
+    """Policies by the names of their rows: all that every trial has, one of them, or a file's.
+
+    A file's has a mark of its content: rows of a changed one are no longer its own.
+    """
+    if policy is None:
+        return dict(BASELINES)
+    if str(policy) in BASELINES:
+        return {str(policy): BASELINES[str(policy)]}
+    make = load_policy(policy)
+    return {f"{policy.stem}-{hashlib.sha256(policy.read_bytes()).hexdigest()[:6]}": make}
 
 
 def _run(make: Any, trial: Trial, robot: str, seed: int) -> list[Row]:

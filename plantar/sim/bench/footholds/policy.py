@@ -15,7 +15,9 @@ from plantar.errors import InputError
 from plantar.gait.command import Sensors
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import MovedStep
-from plantar.robots.controller import JointTargets, RobotController, load_controller
+from plantar.gait.propose.velocity_command import VelocityTable
+from plantar.robots.controller import JointTargets, RobotController, load_controller, without_taxels
+from plantar.sensing.reading import Reading
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,9 @@ class WalkTask:
 
     `joints`: names of its k leg joints, in order of all joint vectors; `period`: time in s between calls of `step`;
     `stance`: joint angles (k,) in rad and torques (k,) in N m at time 0; `steps`: footsteps to take, in order, world
-    frame; `end`: time in s the built-in controller needs; a run has 1.5 times that.
+    frame; none where a velocity is commanded; `end`: time in s the built-in controller needs; a run of footsteps has
+    1.5 times that; `swings`: when in s the built-in controller lifts and lands the foot of each step; `velocities`:
+    commanded over time, or None; `weight` in N and length of `leg` in m of the robot.
     """
 
     robot: str
@@ -35,6 +39,10 @@ class WalkTask:
     steps: tuple[Footstep, ...]
     end: float
     walk: Mapping[str, Any]
+    swings: tuple[tuple[float, float], ...] = ()
+    velocities: VelocityTable | None = None
+    weight: float = 1.0
+    leg: float = 1.0
 
 
 class Action(NamedTuple):
@@ -59,16 +67,60 @@ class Policy(Protocol):
 
 
 class OwnController(Policy):
-    """Plantar's walking controller as a policy."""
+    """Plantar's walking controller as a policy, by all that its taxels tell."""
+
+    soles = "taxels"
+    """What measures the soles' loads, as of `load_controller`."""
 
     def __init__(self, task: WalkTask) -> None:
-        self._walker: RobotController = load_controller(task.robot, {"walk": task.walk})
+        self._walker: RobotController = load_controller(task.robot, {"walk": task.walk}, soles=self.soles)
         self._walker.count_as_checked()
 
     def step(self, sensors: Sensors) -> Action:
         command = self._walker.step(sensors)
         targets = self._walker.joint_targets(command)
         return Action(targets.angles, targets.torques, command.moved_steps)
+
+
+class ByAnkles(OwnController):
+    """The controller by force-torque sensors at the ankles, every foothold a whole sole."""
+
+    soles = "force_torque"
+
+
+class ByNetForce(Policy):
+    """The controller by each sole's net force alone, without its place; every foothold a whole sole."""
+
+    def __init__(self, task: WalkTask) -> None:
+        self._walker: RobotController = load_controller(
+            task.robot, {"walk": task.walk, "control": without_taxels("skin")}
+        )
+        self._walker.count_as_checked()
+        layouts = self._walker.robot.layouts
+        self._shares = {side: layout.areas / layout.areas.sum() for side, layout in layouts.items()}
+
+    def step(self, sensors: Sensors) -> Action:
+        readings = {
+            side: Reading.taken_over(reading.time, np.nansum(reading.force) * self._shares[side])
+            for side, reading in sensors.readings.items()
+        }
+        command = self._walker.step(sensors.changed(readings=readings))
+        targets = self._walker.joint_targets(command)
+        return Action(targets.angles, targets.torques, command.moved_steps)
+
+
+class Zero:
+    """The action 0 of the environments: holds the standing posture, takes no step."""
+
+    def __init__(self, task: WalkTask) -> None:
+        self._action = np.zeros(len(task.joints))
+
+    def act(self, observation: Mapping[str, NDArray[np.float32]]) -> NDArray[np.float64]:
+        return self._action
+
+
+BASELINES: Mapping[str, Any] = {"zero": Zero, "net-force": ByNetForce, "ankles": ByAnkles, "plantar": OwnController}
+"""Rows that every trial has, by name: the action 0, and the controller by what measures its soles."""
 
 
 def load_policy(path: str | os.PathLike[str]) -> Any:

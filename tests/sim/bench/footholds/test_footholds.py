@@ -12,11 +12,10 @@ from plantar import InputError
 from plantar.bench.kind import BenchOptions
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.sim.bench.footholds import measure_footholds as module
-from plantar.sim.bench.footholds.foothold_run import TRIALS, FootholdResult, run_trial, scene_of_trial
+from plantar.sim.bench.footholds.foothold_run import TRIALS, FootholdResult, TrialRun, run_trial, scene_of_trial
 from plantar.sim.bench.footholds.measure_footholds import FOOTHOLDS
-from plantar.sim.bench.footholds.policy import Action, OwnController, load_policy
+from plantar.sim.bench.footholds.policy import BASELINES, Action, OwnController, load_policy
 from plantar.sim.bench.runner import Benched, run_kind
-from plantar.sim.run.runner import Simulation
 
 EXAMPLE = Path(__file__).resolve().parents[4] / "examples" / "own_policy.py"
 SHORT = TRIALS[0]._replace(tables={"terrain": {"kind": "flat"}, "walk": {"steps": 2, "settle": 0.2}})
@@ -67,6 +66,76 @@ def test_what_a_policy_does_wrong_is_named(step, words):
         run_trial(lambda task: policy, SHORT)
 
 
+class Swaying:
+    """A policy of the environments that remembers what it saw."""
+
+    def __init__(self, joints):
+        self.rng = np.random.default_rng(3)
+        self.joints = joints
+        self.seen = []
+
+    def act(self, observation):
+        self.seen.append(observation)
+        return 0.05 * self.rng.standard_normal(self.joints)
+
+
+def test_a_policy_of_the_environment_is_judged_as_it_is():
+    gymnasium = pytest.importorskip("gymnasium")
+    trial = next(t for t in TRIALS if (t.kind, t.value) == ("push", 0.4))
+    env = gymnasium.make("plantar.sim.environments:PlantarFootholds-v0", kind="push", value=0.4)
+    seen, _ = env.reset(seed=0, options={"seed": 5})
+    assert env.observation_space.contains(seen)
+    own = Swaying(env.action_space.shape[0])
+    over = False
+    while not over:
+        seen, reward, over, truncated, info = env.step(own.act(seen))
+        assert np.isfinite(reward)
+        assert not truncated
+    judged = []
+
+    def make(task):
+        judged.append(Swaying(len(task.joints)))
+        return judged[0]
+
+    found = run_trial(make, trial, seed=5)
+    assert found.fell
+    assert (info["completed"], info["steps"], info["fell"], info["failed"]) == (
+        found.completed,
+        found.steps,
+        found.fell,
+        found.failed,
+    )
+    assert len(own.seen) == len(judged[0].seen)
+    for one, other in zip(own.seen, judged[0].seen, strict=True):
+        assert one.keys() == other.keys()
+        assert all(np.array_equal(one[name], other[name]) for name in one)
+    with pytest.raises(InputError, match="act returned"):
+        run_trial(lambda task: type("Wrong", (), {"act": staticmethod(lambda seen: [1.0])})(), SHORT)
+
+
+def test_the_action_zero_and_a_net_force_are_policies_of_every_trial():
+    zero = run_trial(BASELINES["zero"], SHORT)
+    assert (zero.completed, zero.steps) == (False, 0)
+    for name in ("net-force", "ankles"):
+        assert run_trial(BASELINES[name], SHORT).steps == 2, name
+
+
+def test_a_commanded_velocity_is_observed_and_judged():
+    trial = next(t for t in TRIALS if t.kind == "velocity")
+    short = trial._replace(tables={"terrain": {"kind": "flat"}, "walk": {**trial.tables["walk"], "until": 1.0}})
+    seen = []
+
+    class Standing:
+        def act(self, observation):
+            seen.append(observation["task"])
+            return np.zeros(12)
+
+    found = run_trial(lambda task: Standing(), short)
+    assert not found.completed
+    assert "speed_ratio" in found.failed
+    assert np.allclose(np.max(seen, axis=0), [trial.value, 0.0, 0.0])
+
+
 def test_files_that_are_no_policy_are_refused(tmp_path):
     assert callable(load_policy(EXAMPLE))
     with pytest.raises(InputError, match="no Python file"):
@@ -81,7 +150,7 @@ def test_files_that_are_no_policy_are_refused(tmp_path):
 def test_every_trial_is_a_scene_of_every_robot(robot):
     for trial in TRIALS:
         scene = scene_of_trial(trial, robot)
-        assert scene.walk.steps == 8
+        assert scene.walk.commanded if trial.kind == "velocity" else scene.walk.steps == 8
         assert scene.terrain.kind == trial.tables["terrain"]["kind"]
 
 
@@ -99,14 +168,14 @@ def test_a_table_grows_and_continues(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "run_trial", fake)
     measured(tmp_path, None, 1, "push")
     done = measured(tmp_path, EXAMPLE, 4, "push")
-    assert len(ran) == 3 + 12
-    assert len(measured(tmp_path, EXAMPLE, 4, "push").result["rows"]) == 6
-    assert len(ran) == 15
+    assert len(ran) == 4 * len(BASELINES) + 16
+    assert len(measured(tmp_path, EXAMPLE, 4, "push").result["rows"]) == 4 * len(BASELINES) + 4
+    assert len(ran) == 4 * len(BASELINES) + 16
     own = done.result["rows"][-1]
     assert own["policy"].startswith("own_policy-")
     assert (own["completed"], own["fell"], own["runs"]) == (0.75, 0.25, 4)
     assert own["low"] < 0.75 < own["high"]
-    assert "push 0.15 sqrt(g l)" in done.text
+    assert "push 0.4 sqrt(g l)" in done.text
     assert done.text in (tmp_path / "footholds.md").read_text()
 
 
@@ -122,16 +191,16 @@ def test_a_policy_that_was_changed_is_another_one(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(("seeds", "kinds"), [(0, ()), (1, ("lava",))])
 def test_wrong_questions_are_refused(seeds, kinds, tmp_path):
-    with pytest.raises(InputError, match="allowed: 1 or more of flat, beam, stones, slopes, steps, push"):
+    with pytest.raises(InputError, match="allowed: 1 or more of flat, beam, stones, slopes, steps, push, velocity"):
         measured(tmp_path, None, seeds, *kinds)
 
 
 def simulation():
     """The simulation that runs this policy: what a policy that looks for it finds."""
     frame = inspect.currentframe()
-    while "run" not in frame.f_locals or not isinstance(frame.f_locals["run"], Simulation):
+    while not isinstance(frame.f_locals.get("under_way"), TrialRun):
         frame = frame.f_back
-    return frame.f_locals["run"]
+    return frame.f_locals["under_way"].run
 
 
 class Cheat(OwnController):
