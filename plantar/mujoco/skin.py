@@ -142,9 +142,11 @@ class Skin:
     def edit(self, spec: Any) -> None:
         """Add a site "BODY_skin" at the sole frame to an uncompiled `mujoco.MjSpec`; of a second skin "BODY_skin_2".
 
+        Patches that wrap share the site of a frame: all round a limb have the limb's.
+
         Raises:
             InputError: If that is no `MjSpec`.
-            RobotError: As `bind`, or if it has that site.
+            RobotError: As `bind`, or if it has that site of a sole.
         """
         model = instance(spec, mujoco.MjSpec, "spec").copy().compile()
         position, rotation = self._frame(model)
@@ -154,6 +156,8 @@ class Skin:
         while (site := mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, name)) >= 0:
             turned = min(np.abs(model.site_quat[site] - s * quaternion).max() for s in (1.0, -1.0))
             if max(np.abs(model.site_pos[site] - position).max(), turned) < 1e-9:
+                if self.wraps:
+                    return
                 raise RobotError(f"the model has a site '{name}' there already; edit it once")
             count += 1
             name = f"{self.body}_skin_{count}"

@@ -18,7 +18,9 @@ from mjlab.entity import EntityCfg  # noqa: E402
 from mjlab.scene import Scene, SceneCfg  # noqa: E402
 from mjlab.sim import MujocoCfg, Simulation, SimulationCfg  # noqa: E402
 
+from plantar.mujoco import ElasticLayer  # noqa: E402
 from plantar.mujoco.mjlab_sensor import SkinSensorCfg  # noqa: E402
+from plantar.sensing.taxel_faults import TaxelFaults  # noqa: E402
 
 FEET = """<mujoco><worldbody><body name="trunk" pos="0 0 .3"><freejoint name="base"/>
   <geom type="box" size=".1 .15 .1" mass="20"/>
@@ -32,12 +34,16 @@ FEET = """<mujoco><worldbody><body name="trunk" pos="0 0 .3"><freejoint name="ba
 FLOOR = '<mujoco><worldbody><geom type="plane" size="5 5 1"/></worldbody></mujoco>'
 
 
-def make_scene(worlds, bodies=("left_foot", "right_foot"), cone="pyramidal"):
+def make_scene(worlds, bodies=("left_foot", "right_foot"), cone="pyramidal", patches=None):
     entities = {
         "floor": EntityCfg(spec_fn=lambda: mujoco.MjSpec.from_string(FLOOR)),
         "robot": EntityCfg(spec_fn=lambda: mujoco.MjSpec.from_string(FEET)),
     }
-    sensors = tuple(SkinSensorCfg(name=body, entity="robot", body=body) for body in bodies)
+    soles = [SkinSensorCfg(name=body, entity="robot", body=body) for body in bodies]
+    wrapped = [
+        SkinSensorCfg(name=name, entity="robot", body="left_foot", options=way) for name, way in (patches or {}).items()
+    ]
+    sensors = (*soles, *wrapped)
     scene = Scene(SceneCfg(num_envs=worlds, entities=entities, sensors=sensors), device="cpu")
     sim = Simulation(worlds, SimulationCfg(mujoco=MujocoCfg(cone=cone)), scene.compile(), device="cpu")
     scene.initialize(sim.mj_model, sim.model, sim.data)
@@ -83,6 +89,33 @@ def test_its_forces_are_those_of_the_skin_in_mujoco():
         reading = sensor.skin(data)
         assert np.abs(sensor.data.numpy() - reading.vectors).max() < 1e-5 * reading.wrench[2]
         assert np.abs(sensor.wrench.numpy() - reading.wrench).max() < 1e-5 * reading.wrench[2]
+
+
+def test_patches_that_wrap_have_layer_and_faults_too():
+    layer = {"layer": ElasticLayer(1e6, 0.02), "faults": TaxelFaults(gain=0.15, dead_band=0.2), "seed": 4}
+    patches = {
+        "below": {"outward": (0, 0, -1)},
+        "soft": {"outward": (0, 0, -1), **layer},
+        "top": {"outward": (0, 0, 1)},
+    }
+    scene, sim = make_scene(2, patches=patches)
+    model, data = sim.mj_model, mujoco.MjData(sim.mj_model)
+    mujoco.mj_step(model, data, 200)
+    mujoco.mj_forward(model, data)
+    worlds = mujoco_warp.put_data(model, data, nworld=2)
+    for name in patches:
+        sensor = scene[name]
+        sensor.initialize(model, sim.model, worlds, "cpu")
+        sensor.reset()
+        reading = sensor.skin(data)
+        load = max(float(np.linalg.norm(reading.wrench[:3])), 1.0)
+        assert reading.vectors.any() == (name != "top")
+        assert np.abs(sensor.data.numpy() - reading.vectors).max() < 1e-5 * load
+        assert np.abs(sensor.wrench.numpy() - reading.wrench).max() < 1e-5 * load
+    soft = scene["soft"]
+    along = np.einsum("ij,ij->i", soft.skin(data).vectors, soft.skin.static[1])
+    worn = soft.skin.faults.worn(soft.skin.layout, 4, (2,)).read(0.0, np.tile(along, (2, 1)))
+    assert np.allclose(soft.force.numpy(), worn, atol=1e-4 * along.sum(), equal_nan=True)
 
 
 def test_a_body_that_is_missing_is_named():

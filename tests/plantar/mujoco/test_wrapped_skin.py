@@ -327,7 +327,9 @@ def test_a_second_skin_on_a_body_has_a_site_of_its_own(make_box):
         skin.edit(spec)
         assert spec.compile().nsite == k + 1
     with pytest.raises(RobotError, match="edit it once"):
-        Skin(body="foot", outward=(1, 0, 0)).edit(spec)
+        Skin(body="foot").edit(spec)
+    Skin(body="foot", outward=(1, 0, 0), polygon=[(-0.01, -0.02), (0.01, -0.02), (0.0, 0.02)]).edit(spec)
+    assert spec.compile().nsite == 2  # patches of one frame share its site
     assert spec.compile().site("foot_skin_2").pos == pytest.approx([0.12, 0.0, 0.0])
 
 
