@@ -12,7 +12,7 @@ class IdentificationRules(Part, table="identification", needs={"control.identify
     Attributes:
         gyro: Whether gyro bias is, by carrying feet.
         encoders: Whether encoder zeros are, in the opening stand.
-        com: Whether the CoM offset is, by the opening stand's ZMP.
+        com: Whether the CoM offset is, by the ZMP of the opening stand, and of standing still later.
         lean: Torso roll in rad per metre between CoM and feet's middle, for each tenth that mass and CoM load the hips
             more than in the model, up to two tenths; 0 uses the walk's lean. While one leg carries for longer than a
             step, both.
@@ -45,6 +45,13 @@ class IdentificationRules(Part, table="identification", needs={"control.identify
     com: bool = switch(True)
     com_least: float = fixed(0.005, "leg")  # Offset in m up to which it counts as none; chosen: 3 mm on h1
     com_largest: float = fixed(1 / 12, "leg")  # Largest accepted offset in m; chosen: 50 mm on h1
+    # Time constant in s with which it is followed while the robot stands still; measured: `balance` of h1, one seed,
+    # recovers from all pushes at 20 % less and more
+    com_time: float = fixed(4.0, "beat")
+    # Speed of the CoM in m/s up to which it stands still; derived: the DCM is then no farther off than `com_least`
+    com_still: float = fixed(0.005, "leg/beat")
+    # Time in s of that before it is followed; chosen: half a second, a body that is pushed moves sooner
+    com_rest: float = fixed(2.02, "beat")
     # chosen: bounded by the hip's torque below, by the trunk's way above
     lean: float = share(0.48, "rad/leg", 0.0, 10.0)
     # How well it is known where the feet stand at the start, as a standard deviation in m

@@ -13,6 +13,8 @@ from plantar.gait.estimate.encoder_offsets import StandingTolerances, encoder_of
 from plantar.gait.estimate.estimator import LegKinematics, MovingKinematics, Posture, SoleLoad, live_kinematics
 from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.opening_stand import OpeningStand
+from plantar.kernels.base.vectors import vector
+from plantar.mechanics.base_state import BaseState
 
 # chosen: that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
 _TENTHS_MOST = 2.0
@@ -59,6 +61,9 @@ class IdentifiedBody:
         self._share = 0.0
         self._tenths = 0.0
         self._step = period / rules.fade
+        self._period = period
+        self._rested = 0.0
+        self._beside = np.zeros(3)
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
         """Corrected forward kinematics of encoders (k,) in rad."""
@@ -119,6 +124,26 @@ class IdentifiedBody:
         lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
         more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
         self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)  # nature: tenths
+
+    def rest(self, state: BaseState) -> None:
+        """Add a tick of standing after the stand: a CoM that stays is over its ZMP.
+
+        In the opening stand a sole may rest on an edge, and few taxels, whose gains shift the ZMP, carry it.
+        """
+        rules = self._rules
+        moves_x, moves_y, _ = state.com_velocity.tolist()
+        still = math.hypot(moves_x, moves_y) < rules.com_still
+        self._rested = self._rested + self._period if still else 0.0
+        if not rules.com or state.zmp is None or self._rested < rules.com_rest:
+            return
+        x, y = (state.zmp - state.com[:2]).tolist()
+        share = self._period / rules.com_time
+        # Filtered first: a body that follows its shift at once moves its ZMP by the more, the faster it does.
+        beside = state.rotation_base_to_world.T.dot(vector(x, y, 0.0))
+        self._beside = self._beside + share * (beside - self._beside)
+        offset = self.com_offset + 0.5 * share * self._beside
+        self.com_offset = _limited(offset, float(np.linalg.norm(offset)), rules.com_largest)
+        self._lies_off = True
 
     def advance(self) -> None:
         """Advance commanded corrections by a tick after the stand."""

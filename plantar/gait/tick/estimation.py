@@ -17,7 +17,7 @@ from plantar.gait.estimate.identified_body import IdentifiedBody
 from plantar.gait.estimate.push_estimate import PushEstimate
 from plantar.gait.estimate.skin_load import percept_to_its_limit
 from plantar.gait.plan.footsteps import Footstep
-from plantar.gait.plan.phases import Phase
+from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.kernels.gait.gyro_bias import SteadyLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
@@ -130,6 +130,8 @@ class Estimation:
             self.push_on_skin(sensors),
             swing,
         )
+        if self.body is not None and self.body.known and phase.kind == PhaseKind.STANDING:
+            self.body.rest(state)
         self._rotations = state.rotations_sole
         self._state = state
         return state

@@ -11,6 +11,7 @@ from plantar.gait.estimate.ankle_sensor import SoleWrench
 from plantar.gait.estimate.estimator import FloatingBaseEstimator, Posture
 from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.estimate.identified_body import IdentifiedBody
+from plantar.mechanics.base_state import BaseState
 
 PERIOD, WEIGHT, UP = 0.005, 800.0, np.array([0.0, 0.0, 9.81])
 FEET: dict[Side, tuple[float, float, float, float]] = {"left": (0.0, 0.1, 0.0, 0.0), "right": (0.0, -0.1, 0.0, 0.0)}
@@ -119,6 +120,30 @@ def test_commands_follow_without_a_jump():
     np.testing.assert_allclose(body.com_shift, body.com_offset)
     assert leans == sorted(leans)
     assert leans[-1] == pytest.approx(2.0 * RULES.lean)  # 15 mm of 100 mm, times 1.05: more than two tenths
+
+
+def rested(speed, seconds):
+    """Body that has stood, and stands on with its CoM moving at a `speed` in m/s, 10 mm behind the ZMP in its model."""
+    body = stood(RULES, np.zeros(4), soles())
+    nowhere = dict.fromkeys(SIDES, np.zeros(3))
+    upright = dict.fromkeys(SIDES, np.eye(3))
+    loads = dict.fromkeys(SIDES, 0.5 * WEIGHT)
+    velocity = np.array([speed, 0.0, 0.0])
+    for _ in range(round(seconds / PERIOD)):
+        com = body.com_offset
+        body.rest(BaseState(np.eye(3), np.zeros(3), com, velocity, np.array([0.01, 0.0]), loads, nowhere, upright))
+    return body
+
+
+def test_standing_still_brings_the_com_over_the_zmp():
+    assert not rested(0.0, 0.9 * RULES.com_rest).com_offset.any()
+    body = rested(0.0, RULES.com_rest + 12.0 * RULES.com_time)
+    np.testing.assert_allclose(body.com_offset, [0.01, 0.0, 0.0], atol=5e-4)
+    assert body.live_posture(np.zeros(4)).com[0] == pytest.approx(body.com_offset[0])
+
+
+def test_a_body_that_moves_is_not_over_its_zmp():
+    assert not rested(1.1 * RULES.com_still, 5.0).com_offset.any()
 
 
 def test_an_estimator_stands_where_it_stood():
