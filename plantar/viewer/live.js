@@ -4,6 +4,7 @@
 const {SIDES, style, drawSoles, drawForces} = SOLES;
 const $ = id => document.getElementById(id);
 const SECONDS = 10, TRAIL = 2;  // of forces, and of the CoP
+const POINT = 0.015;  // s between points
 const given = JSON.parse($('data').textContent);
 
 // What the drawings of a recording read, filled by a stream.
@@ -19,6 +20,9 @@ class Stream {
     if (this.times.length && state.time < this.times[this.times.length - 1]) this.times = [];
     if (!this.times.length) for (const side of Object.keys(this.soles)) { this.sums[side] = []; this.trails[side] = []; }
     this.state = state;
+    // States that share a picture are one point of the lines.
+    const known = this.times.length > 1 && state.time - this.times[this.times.length - 2] < POINT;
+    if (known) for (const kept of [this.times, ...Object.values(this.sums), ...Object.values(this.trails)]) kept.pop();
     this.times.push(state.time);
     for (const side of Object.keys(this.soles)) {
       const sole = state.soles[side];
@@ -29,10 +33,9 @@ class Stream {
       this.times.shift();
       for (const side of Object.keys(this.soles)) { this.sums[side].shift(); this.trails[side].shift(); }
     }
-    const begin = state.time - SECONDS;
-    this.time = this.times.map(t => t - begin);
-    this.totals = this.sums;
   }
+  get time() { const begin = this.state.time - SECONDS; return this.times.map(t => t - begin); }
+  get totals() { return this.sums; }
   force(side, taxel) {
     const sole = this.state.soles[side], value = sole ? sole.force[taxel] : null;
     return value === null ? NaN : value / 10;
@@ -61,6 +64,9 @@ const stream = new Stream(given.soles);
 window.latencies = [];
 let waiting = false, full = 20, locate = null, chosen = null, over = false, sound = null;
 
+// Writes a text that has changed: each writing lays the page out again.
+function write(id, text) { if ($(id).textContent !== text) $(id).textContent = text; }
+
 function draw() {
   waiting = false;
   const state = stream.state;
@@ -68,20 +74,20 @@ function draw() {
   for (const side of SIDES) if (state.soles[side]) full = Math.max(full, ...state.soles[side].force.map(v => (v || 0) / 10));
   locate = drawSoles(stream, $('soles'), 0, full);
   drawForces(stream, $('forces'), SECONDS, SECONDS, given.unit);
-  $('full').textContent = full.toFixed(0);
-  $('status').textContent = state.status;
+  write('full', full.toFixed(0));
+  write('status', state.status);
   if (chosen) {
     const force = stream.force(chosen.side, chosen.taxel), id = given.soles[chosen.side].ids[chosen.taxel];
-    $('taxel').textContent = `Taxel ${id}, ${chosen.side}: ${Number.isNaN(force) ? 'not measured' : force.toFixed(1) + ' ' + given.unit}.`;
+    write('taxel', `Taxel ${id}, ${chosen.side}: ${Number.isNaN(force) ? 'not measured' : force.toFixed(1) + ' ' + given.unit}.`);
   }
   showMeasures(state.measures);
   showLog(state.log);
   feedback(state);
-  $('record').setAttribute('aria-pressed', String(state.recording));
-  $('record').textContent = state.recording ? 'Recording' : 'Record';
+  if ($('record').ariaPressed !== String(state.recording)) $('record').ariaPressed = String(state.recording);
+  write('record', state.recording ? 'Recording' : 'Record');
   latencies.push(Date.now() - state.arrived);
   if (latencies.length > 3000) latencies.shift();
-  document.body.dataset.ready = 'true';
+  document.body.dataset.ready ||= 'true';
 }
 
 function showMeasures(rows) {
@@ -109,7 +115,7 @@ function feedback(state) {
   const limit = Number($('limit').value), set = $('limit').value !== '' && limit > 0;
   const above = set ? SIDES.filter(side => state.soles[side] && state.soles[side].load > limit) : [];
   const text = above.length ? `More than ${limit} ${given.unit} on the ${above.join(' and the ')} sole` : '';
-  if ($('alarm').textContent !== text) $('alarm').textContent = text;
+  write('alarm', text);
   if (above.length && !over && $('sound').checked) beep();
   over = above.length > 0;
 }

@@ -49,6 +49,7 @@ class LiveState:
         self._soles = {side: _Sole(layout, kind) for side, layout in soles.items()}
         self._strikes: deque[float] = deque(maxlen=_STEPS + 1)
         self._unit = unit
+        self._rows: list[list[str]] | None = None  # of the measures, until a contact begins or ends
 
     def take(self, side: Side, reading: Reading) -> None:
         """Take a reading.
@@ -58,7 +59,11 @@ class LiveState:
             reading: Its forces.
         """
         self.time = max(self.time, reading.time) if reading.time > self.time - 1.0 else reading.time
-        for at in self._soles[side].take(reading):
+        sole = self._soles[side]
+        strikes, changed = sole.take(reading)
+        if changed:
+            self._rows = None
+        for at in strikes:
             if self._strikes and not 0.0 < at - self._strikes[-1] < _WALKED:
                 self._strikes.clear()
             self._strikes.append(at)
@@ -73,10 +78,12 @@ class LiveState:
 
     def as_dict(self) -> dict[str, Any]:
         """Plain values for the page: forces in 0.1 N, null if missing; places in m; texts of the measures."""
+        if self._rows is None:
+            self._rows = self._measures() if self._unit == "N" else []
         return {
             "time": round(self.time, 4),
             "soles": {side: sole.as_dict() for side, sole in self._soles.items() if sole.reading is not None},
-            "measures": self._measures() if self._unit == "N" else [],
+            "measures": self._rows,
             "log": list(self.log),
         }
 
@@ -103,6 +110,7 @@ class _Sole:
         self.steps = 0
         self._detector = StepDetector(kind)
         self._began: float | None = None
+        self._load = math.nan
         self._peak = 0.0
         self._impulse = 0.0
         self._whole = True  # whether the contact that begins is not cut by the stream's beginning
@@ -110,9 +118,10 @@ class _Sole:
             name: deque(maxlen=_STEPS) for name in ("Contact time", "Peak force", "Impulse")
         }
 
-    def take(self, reading: Reading) -> list[float]:
-        """Heel strikes in s that a reading settles."""
+    def take(self, reading: Reading) -> tuple[list[float], bool]:
+        """Heel strikes in s that a reading settles, and whether it settles anything."""
         load = load_of(self.layout, reading)
+        self._load = load
         if self.reading is None:
             self._whole = not load > _CUT
         step = 0.0 if self.reading is None else max(0.0, reading.time - self.reading.time)
@@ -121,7 +130,8 @@ class _Sole:
             self._peak = max(self._peak, load)
             self._impulse += load * step
         strikes = []
-        for event in self._detector.take(reading.time, load):
+        events = self._detector.take(reading.time, load)
+        for event in events:
             if event.kind == "strike":
                 self._began = event.time if self._whole else None
                 self._whole = True
@@ -136,7 +146,7 @@ class _Sole:
                     ("Impulse", self._impulse),
                 ):
                     self._means[name].append(value)
-        return strikes
+        return strikes, bool(events)
 
     def mean(self, name: str) -> float | None:
         known = self._means[name]
@@ -146,11 +156,10 @@ class _Sole:
         assert self.reading is not None
         percept = Percept(self.layout, self.reading)
         cop = percept.position_cop_in_sole
-        load = load_of(self.layout, self.reading)
         tenths = np.round(10.0 * self.reading.force)
         return {
             "force": [None if value != value else int(value) for value in tenths.tolist()],
-            "load": None if math.isnan(load) else round(load, 1),
+            "load": None if math.isnan(self._load) else round(self._load, 1),
             "cop": None if cop is None else [round(value, 4) for value in cop.tolist()],
             "polygon": percept.support_polygon_in_sole.round(4).tolist(),
         }

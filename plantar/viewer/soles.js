@@ -12,9 +12,9 @@ function viridis(share) {
 
 function flat(canvas) {
   const ratio = Math.min(devicePixelRatio, 2), width = canvas.clientWidth, height = canvas.clientHeight;
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(height * ratio);
-  const pen = canvas.getContext('2d');
+  const across = Math.round(width * ratio), down = Math.round(height * ratio), pen = canvas.getContext('2d');
+  if (canvas.width !== across || canvas.height !== down) { canvas.width = across; canvas.height = down; }  // takes new memory
+  else pen.reset();
   pen.scale(ratio, ratio);
   return {pen, width, height};
 }
@@ -83,7 +83,7 @@ function nice(least) {
 }
 
 function drawForces(walk, canvas, time, end, unit = 'N') {
-  const {pen, width, height} = flat(canvas), most = Math.max(...SIDES.map(s => walk.totals[s] ? walk.totals[s].reduce((a, b) => Math.max(a, b || 1), 1) : 1));
+  const {pen, width, height} = flat(canvas), times = walk.time, most = Math.max(...SIDES.map(s => walk.totals[s] ? walk.totals[s].reduce((a, b) => Math.max(a, b || 1), 1) : 1));
   const x = t => width * t / Math.max(end, 1e-6), y = f => height - 16 - (height - 28) * f / most;
   pen.font = '12px system-ui, sans-serif';
   pen.strokeStyle = style('--line');
@@ -102,7 +102,7 @@ function drawForces(walk, canvas, time, end, unit = 'N') {
     pen.beginPath();
     let on = false;
     for (let i = 0; i < total.length; i += step) {
-      if (!Number.isNaN(total[i])) pen[on ? 'lineTo' : 'moveTo'](x(walk.time[i]), y(total[i]));
+      if (!Number.isNaN(total[i])) pen[on ? 'lineTo' : 'moveTo'](x(times[i]), y(total[i]));
       on = !Number.isNaN(total[i]);
     }
     pen.stroke();
