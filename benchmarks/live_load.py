@@ -2,8 +2,8 @@
 
     python benchmarks/live_load.py SECONDS [--page] [--rate 500]
 
-Prints what was sent, what the recording holds, the listener's share of a core, its memory's slope, and of the page, which
-Chromium has open, the times from a packet's arrival to the end of its picture's drawing. Faults are drawn by the commit.
+Prints what was sent, what the recording holds, the listener's share of a core, its memory's slope, and of the page,
+open in Chromium, the times from a packet's arrival to the end of its picture's drawing. Faults are drawn by the commit.
 """
 
 import argparse
@@ -32,6 +32,7 @@ LAYOUT = ROOT / "plantar" / "robots" / "h1" / "layout_left.json"
 SIDES = ("left", "right")
 STEP = 0.6  # s of a stance
 FAULTS = 0.01  # of packets that are wrong, or come with one that is
+KINDS = ("garbled", "blank", "repeated", "cut", "foreign", "infinite", "missing", "gap", "long")
 
 
 def lines_of_stance(taxels: int, rate: float) -> list[str]:
@@ -58,7 +59,7 @@ def send(port: int, seconds: float, rate: float, taxels: int) -> tuple[Counter[s
         for side in SIDES:
             line = f"{side},{k / rate:.6f},{forces[(k + len(forces) // 2 * (side == 'right')) % len(forces)]}\n"
             if drawn.random() < FAULTS:
-                kind = drawn.choice(("garbled", "blank", "repeated", "cut", "foreign", "infinite", "missing", "gap", "long"))
+                kind = drawn.choice(KINDS)
                 faults[kind] += 1
                 wrong = {
                     "garbled": drawn.randbytes(drawn.randrange(1, 400)),
@@ -193,17 +194,19 @@ def measure(options: Any, folder: Path) -> None:
     if browser is not None:
         browser.close()
     time.sleep(1.0)
+    (row,) = re.findall(rf":{port:04X} .*", Path("/proc/net/udp").read_text(encoding="utf-8"))
     live.send_signal(2)
     summary = json.loads(live.communicate()[0])
     sent, faults = json.loads((folder / "sent.json").read_text())
     held = read_recording(recording)
-    print(f"sent {sent}, faults {faults}")
-    print(f"received {({side: one['frames'] for side, one in summary['feet'].items()})}, counted {summary['faults']}")
-    print(f"recorded {({side: int((~np.isnan(foot.force)).any(axis=1).sum()) for side, foot in held.feet.items()})}")
+    print(f"sent {sent}, faults {faults}; {row.split()[-1]} packets that the system had no room for")
+    print(f"received { ({side: one['frames'] for side, one in summary['feet'].items()}) }, counted {summary['faults']}")
+    print(f"recorded { ({side: int((~np.isnan(foot.force)).any(axis=1).sum()) for side, foot in held.feet.items()}) }")
     at, spent, memory = np.array(rows).T
     late = at > 0.2 * at[-1]
     slope = np.polyfit(at[late], memory[late], 1)[0] * 600.0
-    print(f"{100.0 * np.ptp(spent[late]) / np.ptp(at[late]):.1f} % of a core; {memory[-1]:.0f} MB, {slope:+.2f} MB in ten minutes")
+    share = 100.0 * np.ptp(spent[late]) / np.ptp(at[late])
+    print(f"{share:.1f} % of a core; {memory[-1]:.0f} MB, {slope:+.2f} MB in ten minutes")
     if latencies:
         found = np.percentile(latencies, (50, 95, 99, 100)).round(1).tolist()
         print(f"packet to picture, {len(latencies)} pictures: median, 95, 99 %, most: {found} ms")

@@ -5,12 +5,13 @@ center of pressure is lost; and its lines must find ways. Of those that do, one 
 few load cells, and of these the one whose center of pressure is off by the least.
 """
 
+import math
 from dataclasses import dataclass
 
 from plantar.errors import FootError
 from plantar.shoes.build import Shoe, build_shoe
 from plantar.shoes.cells.cell import Cell, built_in_cells, read_cell
-from plantar.shoes.checks.check import check_plan
+from plantar.shoes.checks.check import LOAD, check_plan
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.strength import load_case
@@ -41,6 +42,7 @@ def choose_cell(foot: Foot, parameters: ShoeParameters | None = None) -> CellCho
     mass = load_case(foot, p).mass
     found: list[tuple[bool, float, str, Shoe]] = []
     against = []
+    lighter: list[tuple[float, str]] = []  # masses in kg that cells carry which fail by the load alone
     for name in built_in_cells():
         cell = read_cell(name)
         if not cell.part:
@@ -53,6 +55,8 @@ def choose_cell(foot: Foot, parameters: ShoeParameters | None = None) -> CellCho
         failed = [c for c in check_plan(build.shoes[0].plan, build) if not c.holds]
         if failed:
             first = failed[0]
+            if [c.name for c in failed] == [LOAD]:
+                lighter.append((mass * build.shoes[0].layout.ranges["force"][1] / first.value, name))
             against.append(f"cell {name}: {first.name} is {first.value:g}, allowed {first.allowed}")
             continue
         assert build.cop is not None
@@ -65,7 +69,12 @@ def choose_cell(foot: Foot, parameters: ShoeParameters | None = None) -> CellCho
         except FootError as error:  # only now: finding all lines' ways takes longer than all that was checked before
             against.append(f"cell {found.pop(0)[2]}: {error}")
     if not found:
-        raise FootError(f"no cell that can be bought suits this foot and {mass:g} kg: {'; '.join(against)}")
+        most, strongest = max(lighter, default=(0.0, ""))
+        allowed = f"up to {math.floor(most)} kg with cell {strongest}; " if lighter else ""
+        raise FootError(
+            f"no cell that can be bought suits this foot and {mass:g} kg: {'; '.join(against)}; allowed: {allowed}or "
+            "--cell hex, a laboratory's cell that no shop sells"
+        )
     _, off, name, _ = found[0]
     others = ", ".join(f"{other} ({far:g} mm)" for _, far, other, _ in found[1:])
     text = f"cell {name} is chosen for {mass:g} kg: its center of pressure is within {off:g} mm (95 %)"

@@ -1,5 +1,8 @@
 """The cell for a robot's weight: one that carries its load, and sees the most of it."""
 
+import re
+from dataclasses import replace
+
 import pytest
 
 from plantar.errors import FootError, InputError
@@ -26,6 +29,15 @@ def test_a_weight_that_no_cell_carries_is_refused():
     foot = foot_from_dimensions("a", length=0.12, width=0.07, corner_radius=0.01, mass=300.0)
     with pytest.raises(FootError, match="no cell that can be bought suits this foot and 300 kg: cell fsr_402"):
         choose_cell(foot)
+
+
+@pytest.mark.long
+def test_the_weight_that_the_strongest_cell_carries_is_named_and_carried():
+    heavy = foot_from_dimensions("a", length=0.24, width=0.11, corner_radius=0.02, mass=65.0)
+    with pytest.raises(FootError, match=r"allowed: up to \d+ kg with cell velostat; or --cell hex") as refused:
+        choose_cell(heavy)
+    most = float(re.search(r"up to (\d+) kg", str(refused.value))[1])
+    assert choose_cell(replace(heavy, mass=most)).cell.name == "velostat"
 
 
 def test_an_insole_is_not_chosen_for():

@@ -29,6 +29,9 @@ from plantar.shoes.solid.kernel import SHORTEST
 from plantar.shoes.solid.step_model import StepSolid
 from plantar.shoes.units import to_mm
 
+LOAD = "load of a taxel, N"
+"""Name of the check that a cell carries its load."""
+
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
 _LONG = 0.7  # of a foot's length: a sole that is shorter, as of a high heel, is no foot's that stands on a flat shoe
 # of the load: what goes past the taxels is an error of every force read
@@ -218,7 +221,7 @@ def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
         name = f"center of pressure off by seats, gains, hysteresis, threshold, range, crosstalk and rim ({p.use}), mm"
         yield Check(name, build.cop.holds, build.cop.together, f"{build.cop.limit:g} or less")
     each = cell_load(plan, load_case(build.foot, p), p)
-    yield _most("load of a taxel, N", each, plan.layout.ranges["force"][1])
+    yield _most(LOAD, each, plan.layout.ranges["force"][1])
     if touching is None or has_ground_plate(plan):  # a few cells below a plate see force and its center, no footprint
         return
     at = f"at half the weight, seats within {touching.scatter:g} mm (1 sigma)"

@@ -37,8 +37,19 @@ _AMPLIFIER = (
 )
 _RESISTOR = ("Yageo", "MFR-25FBF52-1K", "resistor 1 kOhm, 1 %", "https://www.yageo.com/en/Product/Index/rlist/mfr")
 _ADAPTER = ("Adafruit", "1492", "adapter of 50 lines, 0.5 mm, to 2.54 mm", "https://www.adafruit.com/product/1492")
-_CABLE = ("any", "USB 2.0 cable, A to Micro-B, 1 m", "from the Pico to the computer", "https://www.usb.org/documents")
-_WIRE = "stranded wire, silicone, AWG 28"
+_CONNECTOR = (
+    "Adafruit",
+    "1773",
+    "connector of 50 lines, 0.5 mm, soldered to the adapter J1",
+    "https://www.adafruit.com/product/1773",
+)
+_CABLE = (
+    "Adafruit",
+    "592, USB A to Micro-B, 3 feet",
+    "from the Pico to the computer",
+    "https://www.adafruit.com/product/592",
+)
+_WIRE = ("Adafruit", "3165, silicone cover stranded-core wire, AWG 30", "https://www.adafruit.com/product/3165")
 
 
 class Pin(NamedTuple):
@@ -220,6 +231,7 @@ def _matrix(shoe: Shoe, tail: tuple[str, ...]) -> Wiring:
         Bought(", ".join(f"U{2 + n}" for n in used), len(used), *_MULTIPLEXER),
         Bought(f"RC0 to RC{columns - 1}", columns, *_RESISTOR),
         Bought("J1", 1, *_ADAPTER),
+        Bought("X1", 1, *_CONNECTOR),
         Bought(
             "FB1", 1, "any maker of flexible boards",
             f"gerbers_{shoe.side}.zip: 2 layers, polyimide, 0.2 mm with stiffener of 0.3 mm in all at the tail's end, "
@@ -239,6 +251,5 @@ def _wires(leads: list[Lead]) -> Iterator[Bought]:
     for colour in dict.fromkeys(lead.colour for lead in leads):
         metres = 1e-3 * sum(lead.length for lead in leads if lead.colour == colour)
         half = -(-int(2000 * metres) // 1000) / 2.0
-        yield Bought(
-            "-", 1, "any", f"{_WIRE}, {colour}, {half:g} m", "leads", "https://www.ul.com/services/appliance-wire"
-        )
+        maker, part, address = _WIRE
+        yield Bought("-", 1, maker, f"{part}, {colour}, {half:g} m", "leads", address)
