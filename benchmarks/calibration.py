@@ -109,12 +109,20 @@ def scores(
     return {name: np.concatenate(parts) for name, parts in out.items()}
 
 
-def bound(calibrated: Scene) -> tuple[float, float]:
-    """Least standard deviation of gains by the noise, all else known (Cramer-Rao): median; and of the CoP in mm."""
+SCATTER = 0.25  # standard deviation of gains before a calibration: within 40 %
+OTHERS = ((0.10, 1.0), (0.06, 1.0), (0.01, 1.0), (SCATTER, 2.0), (SCATTER, 4.0))
+"""Priors and minutes for which the bound is given, too: a sheet, an FSR, a load cell by data sheets; and longer."""
+
+
+def bound(calibrated: Scene, prior: float = SCATTER, minutes: float = 1.0) -> tuple[float, float]:
+    """Least standard deviation of gains by the noise, all else known (Cramer-Rao): median; and of the CoP in mm.
+
+    `prior`: standard deviation of the gains before; `minutes` of the motion.
+    """
     motion = calibrated.motion
     keep = np.exp(-1.0 / (RATE * KEPT))
     n = len(LAYOUTS["left"])
-    information = np.eye(2 * n) / 0.25**2
+    information = np.eye(2 * n) / prior**2
     for i, side in enumerate(SIDES):
         other = motion.load[SIDES[1 - i]]
         alone = (motion.load[side] > 1.0) & (other <= 1.0)
@@ -130,7 +138,7 @@ def bound(calibrated: Scene) -> tuple[float, float]:
             matrix = matrix / size[:, None]
             both = used[1:] & used[:-1]
             white = (matrix[1:] - keep * matrix[:-1])[both] / np.sqrt(1.0 - keep**2)
-            information += white.T @ white
+            information += minutes * white.T @ white
     covariance = np.linalg.inv(information)
     squares = []
     for i, side in enumerate(SIDES):
@@ -162,6 +170,9 @@ def main(draws: int, ways: list[str]) -> None:
             found[way].append(scores(known, held_out, faults, rng))
     least = np.median(np.array(bounds), axis=0)
     print(f"bound, by joints, all but gains known: standard deviation {100 * least[0]:.1f} %, CoP {least[1]:.2f} mm")
+    for prior, minutes in OTHERS:
+        sigma = np.median([bound(scene(10_000 + seed), prior, minutes)[0] for seed in range(0, draws, EACH)])
+        print(f"the same with gains known to {100 * prior:g} % before, {minutes:g} minute(s): {100 * sigma:.1f} %")
     for way, rows in found.items():
         gain, cop, impulse = (np.concatenate([row[name] for row in rows]) for name in ("gain", "cop", "impulse"))
         each = [float(np.mean(np.abs(row["z"]) < 1.96)) for row in rows]
