@@ -63,14 +63,14 @@ def started(model: Any) -> Any:
     return data
 
 
-def h1() -> tuple[Any, Any, str]:
-    """The built-in h1 that stands on flat ground, and the body of its left foot."""
+def h1() -> tuple[Any, Any, Skin]:
+    """The built-in h1 that stands on flat ground, and its left sole."""
     from plantar.sim.environments.walker import PlantarEnv
 
     env = PlantarEnv("stand")
     mujoco.mj_step(env.model, env.data, 200)
     env.model.opt.disableflags = 0  # MuJoCo Warp knows no midphase
-    return env.model, env.data, env.robot.legs["left"].foot_body
+    return env.model, env.data, Skin(body=env.robot.legs["left"].foot_body)
 
 
 def microseconds(call: Callable[[], Any], worlds: int) -> float:
@@ -94,9 +94,9 @@ def microseconds(call: Callable[[], Any], worlds: int) -> float:
     return 1e6 * float(np.median(rounds[5:])) / worlds
 
 
-def row(device: str, name: str, model: Any, data: Any, body: str, worlds: int) -> str:
+def row(device: str, name: str, model: Any, data: Any, skin: Skin, worlds: int) -> str:
     """A line of the table, of worlds whose velocities differ, after 50 steps."""
-    feel = Skin(body=body).bind(model)
+    feel = skin.bind(model)
     stepped, state = mujoco_warp.put_model(model), mujoco_warp.put_data(model, data, nworld=worlds)
     speeds = np.random.default_rng(0).normal(0.0, 0.03, (worlds, model.nv))
     state.qvel.assign(speeds.astype(np.float32))
@@ -116,21 +116,22 @@ def row(device: str, name: str, model: Any, data: Any, body: str, worlds: int) -
     return f"| {device} | {name} | {len(feel)} | {worlds} | " + " | ".join(figures + shares) + " |"
 
 
-def measure(cases: dict[str, tuple[Any, Any, str]], output: Path) -> None:
+def measure(cases: dict[str, tuple[Any, Any, Skin]], output: Path, most: int) -> None:
     """Write the page with all rows of this device."""
     warp.config.quiet = True
     device = warp.get_device()
     name = f"CPU, one core ({platform.machine()})" if device.is_cpu else device.name
     kept = output.read_text().splitlines() if output.exists() else []
-    lines = [line for line in kept if line.startswith("| ") and not line.startswith((HEAD[:9], f"| {name} "))]
+    own = tuple(f"| {name} | {case} |" for case in cases)
+    lines = [line for line in kept if line.startswith("| ") and not line.startswith((HEAD[:9], *own))]
     notes = [line for line in kept if line.startswith("- ") and not line.startswith(f"- {name}:")]
     versions = f"MuJoCo {mujoco.__version__}, MuJoCo Warp {mujoco_warp.__version__}, Warp {warp.__version__}"
     error = f"{largest_error():.0e} of the load"
     notes.append(f"- {name}: {versions}; largest difference from `BoundSkin` on {len(KINDS)} kinds of models {error}")
     print(notes[-1], flush=True)
-    for case, (model, data, body) in cases.items():
-        for worlds in WORLDS["cpu" if device.is_cpu else "cuda"]:
-            lines.append(row(name, case, model, data, body, worlds))
+    for case, (model, data, skin) in cases.items():
+        for worlds in [n for n in WORLDS["cpu" if device.is_cpu else "cuda"] if n <= most]:
+            lines.append(row(name, case, model, data, skin, worlds))
             print(lines[-1], flush=True)
             text = "\n".join(sorted(notes)) + f"\n\n{HEAD}\n{'|---' * 10}|\n" + "\n".join(lines) + "\n"
             output.write_text(f"{TITLE}\n{text}")
@@ -139,17 +140,24 @@ def measure(cases: dict[str, tuple[Any, Any, str]], output: Path) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("model", nargs="*", help="MODEL BODY, or none")
+    parser.add_argument("--only", nargs="+", metavar="CASE", help="some of box, box's lower face, h1; other rows stay")
+    parser.add_argument("--worlds", type=int, default=65536, help="at most so many")
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).with_suffix(".md"))
     options = parser.parse_args()
     box = mujoco.MjModel.from_xml_string(KINDS["box"])
-    cases = {"box": (box, started(box), "foot")}
+    face = Skin(body="foot", outward=(0, 0, -1))
+    cases = {
+        "box": (box, started(box), Skin(body="foot")),
+        "box's lower face": (box, started(box), face),  # a patch that wraps
+    }
     if options.model:
         path, body = options.model
         own = mujoco.MjModel.from_xml_path(path)
-        cases[Path(path).stem] = (own, started(own), body)
-    else:
+        cases[Path(path).stem] = (own, started(own), Skin(body=body))
+    elif options.only is None or "h1" in options.only:
         cases["h1"] = h1()
-    measure(cases, options.output)
+    chosen = cases if options.only is None else {name: cases[name] for name in options.only}
+    measure(chosen, options.output, options.worlds)
 
 
 if __name__ == "__main__":
