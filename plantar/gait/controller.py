@@ -20,7 +20,7 @@ from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.body_sensors import BodySensors
 from plantar.gait.estimate.estimator import LegKinematics
 from plantar.gait.plan.footsteps import Footstep
-from plantar.gait.plan.leg_momentum import LegMomentum
+from plantar.gait.plan.leg_momentum import EARLY, LATEST, LegMomentum
 from plantar.gait.plan.phases import PhaseKind, WalkSchedule
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.gait.plan.walk_plan import WalkPlan
@@ -43,9 +43,6 @@ __all__ = ["Command", "FootTarget", "Sensors", "Start", "WalkingController"]
 
 _UNBOUNDED_REGION = np.empty((0, 2))  # leaves the desired ZMP free
 _NO_STEPS: tuple[MovedStep, ...] = ()
-# of a swing, after which its foot only descends
-_ARRIVED = 0.94  # derived: 1 - `_END` of the swing
-_ARRIVED_SEEING = 0.75  # derived: 1 - `_EARLY_END` of the swing
 _BRIDGED = 0.2  # derived: beats without encoders or IMU: a DCM that is not followed is a fifth farther off by then
 
 
@@ -114,7 +111,7 @@ class WalkingController:
         omega = self.estimation.omega
         self.omega = omega
         self.plan = WalkPlan(feet, start.steps, s.timing, middles, omega, start.time)
-        arrived = _ARRIVED_SEEING if s.compliance is not None else _ARRIVED
+        arrived = EARLY if s.compliance is not None else LATEST
         self.momentum = LegMomentum(self.plan, omega, s.leg_inertia.turning, arrived)
         self.balance = s.balance.law(omega, s.mass, s.period)
         self._open_loop = OpenLoop(s.mass)

@@ -25,7 +25,7 @@ MOST_GROWTH = 100.0
 product of a few such numbers overflows."""
 
 # nature: ten nodes integrate polynomials up to order 19, here the last digit of the pull where w t < 3
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 
 
 class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment": (True,)}):
@@ -181,8 +181,8 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
     half = math.sin(0.5 * rate * left) ** 2
     if omega * left < 3.0:  # derived: the closed form loses e^-3 of its digits there, below it more
         # The closed form below cancels its digits here, and ten nodes integrate the smooth integrand to the last.
-        rest = 0.5 * left * (1.0 - _NODES)
-        total = float(_WEIGHTS @ (np.exp(-omega * (left - rest)) * np.sin(0.5 * rate * rest) ** 2))
+        rest = 0.5 * left * (1.0 - NODES)
+        total = float(WEIGHTS @ (np.exp(-omega * (left - rest)) * np.sin(0.5 * rate * rest) ** 2))
         return 0.5 * left * omega * total / half
     c = omega / (omega * omega + rate * rate)
     turned = c * (omega * math.cos(rate * left) + rate * math.sin(rate * left))

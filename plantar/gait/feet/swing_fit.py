@@ -17,8 +17,6 @@ from plantar.gait.feet.swing_flight import PolynomialSwing, SwingFlight
 from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.kernels.gait.swing_fit import fit
 
-_LEAST_SHARE = 1e-6  # nature: of a swing: what is left of it at least, for a duration that has passed; no division by 0
-
 
 class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": ("fit",)}):
     """What a swing path is fitted to (K Table 1).

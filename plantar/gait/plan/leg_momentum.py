@@ -29,9 +29,12 @@ _AHEAD = 4  # derived: steps that count: later ones move the CoM by micrometres
 _HELD = 0.06  # of a swing, at its start, in which the foot only rises; derived: `_END` of the swing flight
 # nature: minimum-jerk s''
 _KNOTS = tuple((k / 6, 60 * (k / 6) - 180 * (k / 6) ** 2 + 120 * (k / 6) ** 3) for k in range(7))
-# shares of a swing after which its foot only descends: with time to spare, and at most
-_EARLY = 0.75  # derived: 1 - `_EARLY_END` of the swing flight
-_LATEST = 0.94  # derived: 1 - `_END` of the swing flight
+EARLY = 0.75
+"""Share of a swing after which its foot only descends, with time to spare. Derived: 1 - `_EARLY_END` of its flight."""
+
+LATEST = 0.94
+"""The same at most. Derived: 1 - `_END` of its flight."""
+
 # derived: m of way over s^2 of time, of a minimum jerk whose peak a hip takes: 0.7 g
 _BRISK = 0.07 * math.sqrt(3.0) * GRAVITY
 _FADES = 1.0  # chosen: s after the last swing in which nothing is left
@@ -40,7 +43,7 @@ _FADES = 1.0  # chosen: s after the last swing in which nothing is left
 def haste(way: float, duration: float) -> float:
     """Returns the share 0..1 of its time after arrival that a swing of `duration` in s takes for a `way` in m."""
     needed = _HELD + math.sqrt(way / _BRISK) / duration
-    return min(1.0, max(0.0, (needed - _EARLY) / (_LATEST - _EARLY)))
+    return min(1.0, max(0.0, (needed - EARLY) / (LATEST - EARLY)))
 
 
 class LegMomentum:
@@ -109,7 +112,7 @@ class LegMomentum:
             way = view.vrp(phase.step) - view.vrp_before(phase.step, phase.swing)
             begin = phase.start + _HELD * lasts
             late = haste(math.hypot(*way.tolist()), lasts)
-            lasts *= self._arrived + late * (_LATEST - self._arrived) - _HELD
+            lasts *= self._arrived + late * (LATEST - self._arrived) - _HELD
             for share, acceleration in _KNOTS:
                 if begin + share * lasts > times[-1] + SAME_TIME:
                     times.append(begin + share * lasts)

@@ -17,7 +17,7 @@ from plantar.common.arrays import array
 from plantar.common.settings.part import Part
 from plantar.common.settings.schema import number
 from plantar.errors import InputError
-from plantar.gait.balance.ankle_strategy import MOST_GROWTH, SHORTEST_TIME, double_support_pull
+from plantar.gait.balance.ankle_strategy import MOST_GROWTH, NODES, SHORTEST_TIME, WEIGHTS, double_support_pull
 
 _SAMPLES = np.linspace(0.0, 1.0, 33)  # chosen: tests compare with a dense scan
 _LEVELS = 6  # derived: each with samples 16 times as close as the one before; 16^-6, a rounding of single precision
@@ -260,9 +260,8 @@ def _pull_and_rate(omega: float, time: float, left: float) -> tuple[float, float
     return pull, (whole_rate - pull * sine * turning) / (2.0 * half)
 
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)  # nature: ten nodes integrate polynomials up to order 19
-_SHARES = (0.5 * (_NODES + 1.0)).tolist()  # derived: the nodes on 0 to 1
-_PARTS = (0.5 * _WEIGHTS).tolist()  # derived: their weights there
+_SHARES = (0.5 * (NODES + 1.0)).tolist()  # derived: the nodes on 0 to 1
+_PARTS = (0.5 * WEIGHTS).tolist()  # derived: their weights there
 
 
 def _pull_and_rate_near_the_end(omega: float, left: float, angle: float, turning: float) -> tuple[float, float]:

@@ -32,12 +32,11 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
-from plantar.gait.propose.step_timing import StepTiming
+from plantar.gait.propose.step_timing import PEAK, StepTiming
 from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.kernels.gait.pendulum_miss import missed_by
 from plantar.kernels.geometry import convex
 
-_PEAK = 5.774  # nature: largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
 # times that are tried first, and how often the best one's neighbourhood is halved
 _COARSE = 10  # chosen: a time alone depends on it: the cost has one minimum
 _FINE = 4  # chosen: 160 parts of a single support are about a tick
@@ -409,7 +408,7 @@ class StepAdjustment:
         # In the foot's axes, those to the side stretched: what it reaches is a circle then.
         ahead = c * vx + s * vy
         aside = (c * vy - s * vx) / narrow
-        reach = max(0.0, most * time * time - (ahead * ahead + aside * aside) / most) / _PEAK
+        reach = max(0.0, most * time * time - (ahead * ahead + aside * aside) / most) / PEAK
         wx = wanted[0] - x
         wy = wanted[1] - y
         dx = c * wx + s * wy - 0.5 * time * ahead

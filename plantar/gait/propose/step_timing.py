@@ -17,7 +17,8 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 
-_PEAK = 5.774  # nature: largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
+PEAK = 5.774
+"""Largest acceleration of a minimum-jerk motion over its way and time. Nature: 10 / sqrt(3) way / time^2."""
 
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
@@ -87,7 +88,7 @@ class StepTiming:
         if tick.phase.swing is not None:
             later = (1.0 + rules.longest) * usual - begun - left
             way = math.hypot(*tick.feet.ahead.tolist())
-            sooner = left - max(rules.least_left, math.sqrt(_PEAK * way / rules.acceleration))
+            sooner = left - max(rules.least_left, math.sqrt(PEAK * way / rules.acceleration))
         best = 0.0
         least = missed(left)
         for sign, most in ((1.0, later), (-1.0, sooner)):

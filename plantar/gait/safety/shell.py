@@ -16,7 +16,7 @@ from plantar.gait.command import Command, Sensors
 from plantar.gait.estimate.estimator import Posture
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.safety.bring_up.bring_up import BringUp
-from plantar.gait.safety.fall_check import FallCheck
+from plantar.gait.safety.fall_check import FROZEN, FallCheck
 from plantar.gait.safety.fault_log import FaultLog
 from plantar.gait.safety.safe_stop import SITS, SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
@@ -28,7 +28,6 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.reading import Reading
 
-_STUCK = 0.12  # chosen: s for which sensors may report the very same: a train of 0.1 s is walked through
 # rad, rad/s^2: a joint's speed changes faster only where its encoder jumps; walks reach 80
 _SLIP = 0.02  # chosen: four times the largest zero of a drawn encoder
 _JERK = 800.0  # measured: ten times what walks reach
@@ -115,7 +114,7 @@ class SafetyShell:
         self._noted: dict[str, float] = {}
         self._jumps = 0
         self._missed = 0.0
-        self._stuck = round(_STUCK / period)
+        self._stuck = round(FROZEN / period)
         self._bridged = round(_SILENT / period)
         self._silent = 0
         self._unloaded = 0
@@ -428,14 +427,14 @@ class SafetyShell:
         weight = self._weight
         phase = self._last.phase
         if phase.kind != PhaseKind.STANDING:
-            # derived: `_EMPTY`: a sole that may be in the air repeats its zeros
-            if soles.left_same >= self._stuck and soles.left > 0.05 * weight:
+            # A sole that may be in the air repeats its zeros.
+            if soles.left_same >= self._stuck and soles.left > _EMPTY * weight:
                 return "left"
-            if soles.right_same >= self._stuck and soles.right > 0.05 * weight:  # derived: `_EMPTY`
+            if soles.right_same >= self._stuck and soles.right > _EMPTY * weight:
                 return "right"
         if self._lost is not None:
             own = soles.left if self._lost == "left" else soles.right
-            if own > 0.1 * weight:  # derived: twice `_EMPTY`: a lost sole that carries again
+            if own > 2.0 * _EMPTY * weight:  # it carries again
                 self._lost = None
             return self._lost
         light = soles.left + soles.right < _UNLOADED * weight

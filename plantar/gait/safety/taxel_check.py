@@ -24,10 +24,10 @@ _CONFIRMED = 0.04  # chosen: s; impacts are shorter
 _AIR = 0.02  # derived: weight on a taxel in the air: ten times the noise of an H1's
 _AIR_FOR = 0.06  # measured: s; a swing whose foot touches something early ends within 0.03 s
 _FEW = 0.1  # chosen: share of a sole's taxels; more of them that report in the air touch something
-# derived: of a single support in which the foot is up by plan, as where the estimator takes its zero, and the other one
-# carries a share of the weight
-_UP = (0.2, 0.5)
-_CARRIED = 0.7  # chosen: bounded by a half, which two feet carry each
+UP = (0.2, 0.5)
+"""Of a single support, between which its foot is up by plan. Chosen: after it has been unloaded, before it descends."""
+
+_CARRIED = 0.7  # of the weight on the other foot then; chosen: bounded by a half, which two feet carry each
 
 Readings = Mapping[Side, Reading]
 
@@ -68,7 +68,7 @@ class TaxelCheck:
         if swing is not None:
             share = (time - phase.start) / (phase.end - phase.start)
             carried = loads[0 if swing == "right" else 1]
-            if not _UP[0] < share < _UP[1] or carried < _CARRIED * self._weight:
+            if not UP[0] < share < UP[1] or carried < _CARRIED * self._weight:
                 swing = None
         weight = self._weight
         load = loads[0] + loads[1]

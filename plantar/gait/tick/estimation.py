@@ -18,6 +18,7 @@ from plantar.gait.estimate.push_estimate import PushEstimate
 from plantar.gait.estimate.skin_load import percept_to_its_limit
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.gait.safety.taxel_check import UP
 from plantar.kernels.gait.gyro_bias import SteadyLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
@@ -124,9 +125,7 @@ class Estimation:
             sensors.accelerometer,
             sensed.soles,
             acceleration,
-            # in the air: it finds its zero; derived: `_UP` of the taxels' check: in this part of a swing the foot is up
-            # by plan
-            phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,
+            phase.swing if UP[0] < share < UP[1] and s.zmp_source == "skin" else None,  # in the air: it finds its zero
             self.push_on_skin(sensors),
             swing,
         )
