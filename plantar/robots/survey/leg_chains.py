@@ -67,10 +67,11 @@ def find_legs(model: Any, data: Any, where: str, feet: tuple[str, str] | None = 
     up, how = _upwards(tree, where)
     if feet is None:
         pair = _pair(tree, up, where)
-        lower = [_leg(tree, up, chain, where) for chain in pair]
+        ends = _feet_of(tree, up, pair)
     else:
         pair = _named_pair(tree, feet, where)
-        lower = [_ended(tree, chain, where) for chain in pair]
+        ends = [len(chain) for chain in pair]
+    lower = [_leg(tree, chain[:end], where) for chain, end in zip(pair, ends, strict=True)]
     rotation, notes = _facing(tree, up, lower, where)
     across = [float((rotation @ leg.ankle)[1]) for leg in lower]
     left, right = lower if across[0] > across[1] else lower[::-1]
@@ -162,11 +163,11 @@ def _pair(tree: _Tree, up: Array, where: str) -> tuple[list[int], list[int]]:
         if all(min(len(tree.hinges(c)) for c in _apart(tree, other, k[1])) >= LEAST_JOINTS for k in limbs):
             limbs.append((one, other, two))
     if len(limbs) != 1:
-        found = ", ".join(tree.model.body(i).name for i in (first, *(k[1] for k in limbs)))
+        names = ", ".join(tree.model.body(i).name for i in (first, *(k[1] for k in limbs)))
         what = "only one limb" if not limbs else f"{len(limbs) + 1} limbs"
         raise RobotError(
-            f"{where}: {what} of {LEAST_JOINTS} hinges or more that share no joint reach the ground ({found}); "
-            "allowed: two legs"
+            f"{where}: {what} of {LEAST_JOINTS} hinges or more that share no joint reach the ground ({names}); "
+            "allowed: two legs; name their feet: --foot left,right"
         )
     limb = limbs[0][0], limbs[0][2]
     legs = {j for chain in limb for i in chain for j in tree.below(i)}
@@ -188,19 +189,29 @@ def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
     return one[shared:], two[shared:]
 
 
-def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
-    """The leg of a chain of links; the highest on the floor is the foot."""
-    data = tree.data
+def _feet_of(tree: _Tree, up: Array, pair: tuple[list[int], list[int]]) -> list[int]:
+    """Links of each leg's chain as far as its foot: of legs of as many hinges, both end at the lower one's.
+
+    What is below a foot that is drawn too low, as an ankle of GR3's right leg is, is no toe of it then.
+    """
+    ends = [_foot_of(tree, up, chain) for chain in pair]
+    one, two = pair
+    alike = [len(tree.hinges([i])) for i in one] == [len(tree.hinges([i])) for i in two]
+    return [max(ends)] * 2 if alike else ends
+
+
+def _foot_of(tree: _Tree, up: Array, chain: list[int]) -> int:
+    """Links of a chain as far as its foot, the highest one on the floor."""
     up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
     last = len(chain) - 1
     # Of a leg of five hinges the last one is its ankle, and a shank that reaches far down is no foot.
     while last > 0 and len(tree.hinges(chain[:last])) > LEAST_JOINTS and chain[last - 1] in tree.points:
-        anchor = float(data.xanchor[tree.joints(chain[last - 1])[-1]] @ up)
+        anchor = float(tree.data.xanchor[tree.joints(chain[last - 1])[-1]] @ up)
         if float((tree.points[chain[last - 1]] @ up).min()) - floor > _NEAR_FLOOR * (anchor - floor):
             break
         last -= 1
-    return _ended(tree, chain[: last + 1], where)
+    return last + 1
 
 
 def _named_pair(tree: _Tree, feet: tuple[str, str], where: str) -> tuple[list[int], list[int]]:
@@ -218,7 +229,7 @@ def _named_pair(tree: _Tree, feet: tuple[str, str], where: str) -> tuple[list[in
     return pair
 
 
-def _ended(tree: _Tree, links: list[int], where: str) -> Leg:
+def _leg(tree: _Tree, links: list[int], where: str) -> Leg:
     """The leg whose last link is its foot."""
     model = tree.model
     data = tree.data

@@ -17,6 +17,7 @@ from plantar.errors import RobotError
 from plantar.mujoco.deletion import delete_all
 from plantar.robots.model_file import forget_own_simulation
 from plantar.robots.survey.body_surface import SHAPES
+from plantar.robots.survey.leg_chains import LEAST_JOINTS
 from plantar.robots.survey.surface_file import meshes_for_mujoco
 from plantar.robots.survey.wishes import angles_of, found
 
@@ -136,9 +137,19 @@ def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
 
 def _read_joints(root: ElementTree.Element, file: Path, stated: _Stated) -> None:
     """Limits and couplings that a URDF states and MuJoCo leaves out; joints without range are fixed."""
-    locked = [name for joint in root.findall("joint") if (name := _locked(joint, file))]
+    turning = [joint for joint in root.findall("joint") if joint.get("type") in ("revolute", "continuous")]
+    locked = [joint for joint in root.findall("joint") if _is_locked(joint, file)]
+    unstated = all(joint in locked and not _states_range(joint) for joint in turning)
+    if unstated and len(turning) >= 2 * LEAST_JOINTS:  # of two legs, which have a range
+        for joint in turning:
+            joint.set("type", "continuous")
+        stated.notes.append("no joint's range is stated: all turn without limits, put theirs in the URDF's <limit>")
+        locked = []
+    for joint in locked:
+        joint.set("type", "fixed")
     stated.notes += named_note(
-        "held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out)", locked
+        "held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out)",
+        [joint.get("name", "") for joint in locked],
     )
     for joint in root.findall("joint"):
         name = joint.get("name", "")
@@ -152,23 +163,26 @@ def _read_joints(root: ElementTree.Element, file: Path, stated: _Stated) -> None
                 found_limits[name] = value
 
 
-def _locked(joint: ElementTree.Element, file: Path) -> str:
-    """Name of a joint without range, which MuJoCo takes as unlimited; else empty."""
-    name = joint.get("name", "")
+def _is_locked(joint: ElementTree.Element, file: Path) -> bool:
+    """Whether a joint has no range, which MuJoCo takes as unlimited."""
     limit = joint.find("limit")
     if joint.get("type") not in ("revolute", "prismatic") or limit is None:
-        return ""
+        return False
     lower = _number(limit.get("lower"))
     upper = _number(limit.get("upper"))
     if -math.inf < lower < upper < math.inf:
-        return ""
+        return False
     if not lower == upper == 0.0:
         raise RobotError(
-            f"{file}: joint '{name}' has limits from {lower:g} to {upper:g}; allowed: lower below upper, "
-            "or a joint of type fixed or continuous"
+            f"{file}: joint '{joint.get('name', '')}' has limits from {lower:g} to {upper:g}; allowed: lower below "
+            "upper, or a joint of type fixed or continuous"
         )
-    joint.set("type", "fixed")
-    return name
+    return True
+
+
+def _states_range(joint: ElementTree.Element) -> bool:
+    limit = joint.find("limit")
+    return limit is not None and bool({"lower", "upper"} & set(limit.attrib))
 
 
 def _number(text: str | None) -> float:

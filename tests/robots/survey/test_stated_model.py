@@ -338,6 +338,43 @@ def test_a_mesh_is_found_and_weighs_as_in_mujoco(tmp_path):
     assert mass == pytest.approx(mujoco.mj_getTotalmass(mujoco.MjModel.from_xml_path(str(file))))
 
 
+@pytest.mark.parametrize(("stated", "joints"), [("", 8), ('lower="-1" upper="1"', 1)])
+def test_joints_of_a_urdf_that_states_no_range_at_all_turn(tmp_path, stated, joints):
+    """As of a CAD export that writes efforts and speeds only; where one has a range, the others are held."""
+    inertia = re.search("<inertial>.*?</inertial>", urdf(""))[0]
+    links = "".join(f'<link name="link{k}">{inertia}</link>' for k in range(9))
+    hinges = "".join(
+        f'<joint name="joint{k}" type="revolute"><parent link="link{k}"/><child link="link{k + 1}"/>'
+        f'<limit effort="3" velocity="5" {stated if k == 0 else ""}/></joint>'
+        for k in range(8)
+    )
+    file = tmp_path / "robot.urdf"
+    file.write_text(f'<robot name="r">{links}{hinges}</robot>')
+    source = read_stated_model(file, tmp_path)
+    assert source.model.njnt == joints
+    assert int(source.model.jnt_limited.sum()) == (joints == 1)
+    assert any(note.startswith("no joint's range is stated: all turn") for note in source.notes) == (joints == 8)
+
+
+def test_a_leg_ends_where_the_other_one_does(tmp_path):
+    """One ankle is drawn as low as the foot below it, as on the right of GR3."""
+    truth = random_biped(10, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    expected = survey_model(truth.file, tmp_path)
+    model = expected.source.model
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    above = int(model.body_parentid[model.body(truth.feet["right"]).id])
+    turn = data.xmat[above].reshape(3, 3).T
+    foot = data.geom_xpos[model.body(truth.feet["right"]).geomadr[0]] - data.xpos[above]
+    spec.body(model.body(above).name).add_geom(size=[0.03], pos=turn @ foot, mass=0.0)
+    spec.compile()
+    truth.file.write_text(spec.to_xml())
+    found = survey_model(truth.file, tmp_path)
+    assert found.foot_name("right") == truth.feet["right"]
+    assert found.joint_names("right") == expected.joint_names("right")
+
+
 def test_settings_of_another_mujoco_are_no_obstacle(tmp_path):
     """MuJoCo 4 has no flag "sensornoise" any more, with which XBot-L ships; an unknown joint is refused as before."""
     truth = random_biped(10, tmp_path)
