@@ -14,6 +14,9 @@ from plantar.gait.safety.bring_up.response import delayed_response
 _WEIGHT = (0.65, 1.5)  # of the model's weight on the soles; drawn plants have 0.8 to 1.2
 _SILENT = 0.03  # weight on a sole that reports nothing
 _ORDER = 0.2  # of the lean forward that the center of pressure makes; drawn plants have 0.6 to 1.3, soles on an edge 0
+# share of a center of pressure's variance that the lean does not explain, in reversed order over as wired; of a sound
+# sole ten times as much, of a reversed one a tenth; 0.15 and 0.6 find the same
+_REVERSED = 0.3
 _MIRRORED = -0.08  # likewise to the left, mean of both soles; drawn plants have 0.05 to 0.7
 _APART = 2.5  # times the other sole's load at rest; drawn plants have 2.1
 _GAIN = (0.5, 2.0)  # of a sole beside what its foot carries of the weight
@@ -72,9 +75,14 @@ def check_leaning_soles(trace: Trace) -> list[Finding]:
     lean = trace["vrp"][forward, 0]
     allowed = f"more than {_ORDER} times the lean forward"
     for side in SIDES:
-        slope = _slope(lean, trace[f"center_{side}"][forward, 0], period_of(trace))
-        if slope < -_ORDER:
+        slope, rest = _response(lean, trace[f"center_{side}"][forward, 0], period_of(trace))
+        turned, other = _response(lean, trace[f"reversed_{side}"][forward, 0], period_of(trace))
+        # Where a list of taxels goes to and fro, its reverse mixes both axes, and may move forward, late and among much
+        # else.
+        if slope < -_ORDER or (turned > _ORDER and other < _REVERSED * rest):
             text = f"the {side} sole's center of pressure moves by {slope:.2f} times the lean forward"
+            if slope >= -_ORDER:
+                text += f", which explains {1.0 - rest:.2f} of it; in reversed order {turned:.2f} and {1.0 - other:.2f}"
             found.append(Finding(f"taxel order of the {side} sole reversed", text, allowed))
     centers = (left * trace["center_left"][:, 0] + right * trace["center_right"][:, 0]) / (left + right)
     both = _slope(lean, centers[forward], period_of(trace))
@@ -116,5 +124,12 @@ def _during(trace: Trace, span: tuple[float, float]) -> NDArray[np.bool_]:
 
 def _slope(x: NDArray[np.float64], y: NDArray[np.float64], period: float) -> float:
     """Of the line through points (n,), at the delay of y that fits best."""
-    response, _ = delayed_response(x[:, None], y[:, None], MOST_LATE, period, 0.02)
-    return float(response[0, 0])
+    return _response(x, y, period)[0]
+
+
+def _response(x: NDArray[np.float64], y: NDArray[np.float64], period: float) -> tuple[float, float]:
+    """Slope of that line, and the share of the variance of y that it leaves."""
+    response, late = delayed_response(x[:, None], y[:, None], MOST_LATE, period, 0.02)
+    slope = float(response[0, 0])
+    rest = np.var(y[late:] - slope * x[: len(x) - late]) / max(float(np.var(y[late:])), 1e-30)
+    return slope, float(rest)

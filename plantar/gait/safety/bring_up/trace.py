@@ -54,8 +54,8 @@ class Trace:
             if force is None:
                 return f"{side} sole"
             load = float(force.sum())
-            center = force @ self._positions[side] / load if abs(load) > 1e-9 else np.zeros(2)
-            row += [np.array([load]), center]
+            share = force / load if abs(load) > 1e-9 else np.zeros(len(force))
+            row += [np.array([load]), share @ self._positions[side], share[::-1] @ self._positions[side]]
         self._rows.append(np.concatenate(row))
         return None
 
@@ -66,7 +66,8 @@ class Trace:
         """Arrays by name, a row a tick."""
         widths = {"time": 1, "clock": 1, "expected": self._joints, "vrp": 2, "turn": 3, "acceleration": 2}
         widths |= {"joints": self._joints, "gyro": 3, "accelerometer": 3}
-        widths |= {"load_left": 1, "center_left": 2, "load_right": 1, "center_right": 2}
+        for side in SIDES:  # "reversed": by the taxels in reversed order
+            widths |= {f"load_{side}": 1, f"center_{side}": 2, f"reversed_{side}": 2}
         rows = np.array(self._rows).reshape(-1, sum(widths.values()))
         found: dict[str, NDArray[np.float64]] = {}
         at = 0

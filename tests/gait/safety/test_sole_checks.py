@@ -1,0 +1,37 @@
+"""Sides, scale and order of the soles' taxels, by traces of a robot that leans."""
+
+import numpy as np
+import pytest
+
+from plantar.gait.safety.bring_up.motion import FORWARD, LEANED, SIDEWAYS
+from plantar.gait.safety.bring_up.sole_checks import check_leaning_soles
+
+PERIOD = 0.005
+
+
+def leaned(reversed_sides=()):
+    """Trace of soles whose list of taxels goes to and fro, so that its reverse mixes both axes of the sole."""
+    time = PERIOD * np.arange(round(LEANED / PERIOD))
+    lean = np.zeros((len(time), 2))
+    for axis, (begin, end) in enumerate((FORWARD, SIDEWAYS)):
+        share = np.clip((time - begin) / (end - begin), 0.0, 1.0)
+        lean[:, axis] = 0.01 * np.sin(2.0 * np.pi * share)
+    roll = 0.012 * np.sin(2.0 * np.pi * 2.1 * time) * (time > FORWARD[0])  # of the torso, which moves both soles alike
+    x, y = lean[:, 0], 0.2 * lean[:, 1] + roll
+    wired, turned = np.column_stack([x, y]), np.column_stack([-0.4 * x - 1.2 * y, -0.3 * y])
+    trace = {"time": time, "vrp": lean}
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        trace[f"load_{side}"] = 300.0 * (1.0 + 4.0 * sign * lean[:, 1])
+        flips = side in reversed_sides
+        trace[f"center_{side}"], trace[f"reversed_{side}"] = (turned, wired) if flips else (wired, turned)
+    return trace
+
+
+@pytest.mark.parametrize("sides", [("left",), ("right",), ("left", "right")])
+def test_a_reversed_order_that_mixes_both_axes_is_named(sides):
+    causes = [finding.cause for finding in check_leaning_soles(leaned(sides))]
+    assert causes == [f"taxel order of the {side} sole reversed" for side in sides]
+
+
+def test_soles_in_order_pass():
+    assert check_leaning_soles(leaned()) == []
