@@ -13,6 +13,7 @@ import os
 import random
 import re
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -148,6 +149,11 @@ def used(process: int) -> tuple[float, float]:
     return 1e-9 * spent, int((place / "statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
+def interruptible() -> None:
+    """Let Ctrl-C end what is started here, also where a shell started this in the background."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def main() -> None:
     asked = argparse.ArgumentParser(description="Load of plantar live.")
     asked.add_argument("seconds", type=float)
@@ -168,7 +174,7 @@ def measure(options: Any, folder: Path) -> None:
     command += ["-o", str(recording), "--seconds", str(options.seconds + 3600.0), *(["--page"] if options.page else [])]
     errors = folder / "errors.txt"
     with errors.open("w") as stream:
-        live = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=stream, text=True)
+        live = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=stream, text=True, preexec_fn=interruptible)
     while not Path(f"/proc/{live.pid}/net/udp").read_text(encoding="utf-8").count(f":{port:04X} "):
         time.sleep(0.1)
     browser = None
@@ -195,7 +201,7 @@ def measure(options: Any, folder: Path) -> None:
         browser.close()
     time.sleep(1.0)
     (row,) = re.findall(rf":{port:04X} .*", Path("/proc/net/udp").read_text(encoding="utf-8"))
-    live.send_signal(2)
+    live.send_signal(signal.SIGINT)
     summary = json.loads(live.communicate()[0])
     sent, faults = json.loads((folder / "sent.json").read_text())
     held = read_recording(recording)
