@@ -36,6 +36,8 @@ class Sensors(Record, frozen=True):
         skin: Latest reading of the upper body's skin (`ControllerSettings.skin`), or None.
         links: Origin (3,) in m and rotation (3, 3), base frame, of each moving link with skin.
         torques: Measured by the joints' motors (k,) in N m, for soles without sensors (`load_controller`), or None.
+        sampled: Time in s at which joints and IMU were read, where that was before `time`; with it, what a sole sees is
+            placed by the pose that the foot had then.
     """
 
     time: float
@@ -47,6 +49,7 @@ class Sensors(Record, frozen=True):
     skin: Reading | None = None
     links: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = msgspec.field(default_factory=dict)
     torques: NDArray[np.float64] | None = None
+    sampled: float | None = None
 
 
 class FootTarget(Record, frozen=True):

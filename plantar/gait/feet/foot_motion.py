@@ -43,11 +43,12 @@ _WARY = 6
 
 
 class SoleSense(Record, frozen=True):
-    """A sole's percept and estimated pose in the world."""
+    """A sole's percept and its pose in the world, as estimated of what was measured at a `time` in s."""
 
     percept: Percept
     position: NDArray[np.float64]
     rotation: NDArray[np.float64]
+    time: float
 
 
 class _Slope(NamedTuple):
@@ -381,7 +382,7 @@ class FootMotion:
         if not self.landed:
             above_frame = sense.position.item(2) - frame.z
             self._lag.update(position.item(2), above_frame)
-            view = compliance.ground.update(sense.percept, sense.position, sense.rotation, time)
+            view = compliance.ground.update(sense.percept, sense.position, sense.rotation, sense.time)
             if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, sense.position.item(2))

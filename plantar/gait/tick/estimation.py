@@ -29,9 +29,10 @@ from plantar.sensing.net_wrench import net_wrench
 
 
 class Sensed(Record, frozen=True):
-    """A reading that all parts share."""
+    """A reading that all parts share: of a `time` in s, its joints `sampled` then or before."""
 
     time: float
+    sampled: float
     phase: Phase
     percepts: Mapping[Side, Percept]
     ankles: Mapping[Side, SoleWrench]
@@ -105,7 +106,8 @@ class Estimation:
                 if side in sensors.ankles:
                     ankles[side] = sensor.sole_wrench(sensors.ankles[side], self._rotations[side])
         soles: Mapping[Side, SoleLoad] = ankles if self._settings.zmp_source == "force_torque" else percepts
-        return Sensed(sensors.time, phase, percepts, ankles, soles)
+        sampled = sensors.time if sensors.sampled is None else sensors.sampled
+        return Sensed(sensors.time, sampled, phase, percepts, ankles, soles)
 
     def update(
         self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64], swing: NDArray[np.float64]

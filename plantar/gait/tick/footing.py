@@ -116,8 +116,8 @@ class Footing:
             places = state.positions_sole
             turns = state.rotations_sole
             senses = {
-                "left": SoleSense(percepts["left"], places["left"], turns["left"]),
-                "right": SoleSense(percepts["right"], places["right"], turns["right"]),
+                "left": SoleSense(percepts["left"], places["left"], turns["left"], sensed.sampled),
+                "right": SoleSense(percepts["right"], places["right"], turns["right"], sensed.sampled),
             }
         target = None if phase.swing is None else self._plan.view.foothold(phase.step)
         if phase.kind == PhaseKind.STANDING:  # feet relax then

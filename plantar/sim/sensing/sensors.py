@@ -110,7 +110,8 @@ class SensorSuite:
         read = self._read_now()
         if self._line is None:
             return read
-        return self._line.passed(read.time, read).changed(time=read.time)
+        arrived = self._line.passed(read.time, read)
+        return arrived.changed(time=read.time, sampled=arrived.time)
 
     def _read_now(self) -> Sensors:
         joints, gyro, specific = self._body.read()

@@ -177,7 +177,7 @@ def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height, spike, la
             position, _ = motion.footholds[side]
             seen = np.full(len(layout), max(0.0, float(position[2])))
             percept = Percept(layout, Reading(time=time, force=force, proximity=seen))
-            senses[side] = SoleSense(percept, position, np.eye(3))
+            senses[side] = SoleSense(percept, position, np.eye(3), time)
         down = motion.comes_down and motion.footholds["left"][0][2] < height
         spikes += down
         load = spike if down and spikes <= 2 else 0.0
@@ -272,7 +272,7 @@ def test_a_foot_that_sees_the_ground_presses_as_it_is_told():
             for side in feet:
                 seen = np.full(len(layout), max(0.0, float(motion.footholds[side][0][2])))
                 percept = Percept(layout, Reading(time=time, force=np.zeros(len(layout)), proximity=seen))
-                senses[side] = SoleSense(percept, motion.footholds[side][0], np.eye(3))
+                senses[side] = SoleSense(percept, motion.footholds[side][0], np.eye(3), time)
             carried.append(load)
             loads = {"left": load, "right": 800.0}
             motion.update(phase, time, taken(steps, phase), loads, frame, senses, press)
@@ -309,7 +309,7 @@ def seeing(ground, tilt=0.0, rise=0.0, until=3.28, block=None):
                 over = np.where(layout.positions[:, 0] > 0.06, above - block, above)
                 seen = np.where(over < 0.05, np.maximum(over, 0.0), np.inf)
             percept = Percept(layout, Reading(time=time, force=np.zeros(len(layout)), proximity=seen))
-            senses[side] = SoleSense(percept, position, np.eye(3))
+            senses[side] = SoleSense(percept, position, np.eye(3), time)
         loads = {"left": 800.0 if phase.swing != "left" else 0.0, "right": 800.0 if phase.swing != "right" else 0.0}
         motion.update(phase, time, taken(steps, phase), loads, frame, senses)
         if phase.step == 1 and phase.swing == "right":
@@ -348,3 +348,17 @@ def test_a_foot_that_sees_no_ground_at_its_place_goes_down_to_look():
 def test_what_lies_under_a_rim_alone_is_higher_ground(block):
     motion, _ = seeing(0.0, until=3.1, block=block)
     assert motion.surprise == pytest.approx(block, abs=5e-3)  # less than half of what is seen under the middle
+
+
+def test_late_encoders_and_late_proximity_agree_on_the_ground():
+    # A sole that comes down at 0.3 m/s, all that it measures 10 ms late.
+    layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+    ground = GroundMap(layout, GroundMapSettings())
+    ground.begin()
+    for k in range(12):
+        sampled = k * PERIOD - 0.01
+        height = 0.045 - 0.3 * sampled
+        seen = Reading(time=sampled, force=np.zeros(len(layout)), proximity=np.full(len(layout), height))
+        view = ground.update(Percept(layout, seen), np.array([0.0, 0.0, height]), np.eye(3), sampled)
+        assert view is not None
+        assert view.distance == pytest.approx(height, abs=1e-9)

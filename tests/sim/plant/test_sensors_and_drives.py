@@ -128,6 +128,7 @@ def test_what_is_read_late_is_what_was_read_then(world):
         assert np.array_equal(arrived.gyro, earlier.gyro)
         assert np.array_equal(arrived.accelerometer, earlier.accelerometer)
         assert all(arrived.readings[side].time == earlier.readings[side].time for side in SIDES)
+        assert (earlier.sampled, arrived.sampled) == (None, earlier.time)
     assert not np.array_equal(now[0].joint_positions, now[-1].joint_positions)
 
 
