@@ -40,7 +40,8 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     # Time in s before the plan puts weight on the foot at which it is there; derived: as long as a double support, 0.3
     # s on h1
     crawl_time: float = fixed(1.21, "beat")
-    # Time in s before that of a late foot; it hurries from twice that; chosen: 0.12 s on h1
+    # Time in s before that of a late foot; it hurries from twice that; chosen: 0.12 s on h1. Shorter, and the foot
+    # quicker, by as much as the double support that follows is shorter than `crawl_time`
     reserve: float = fixed(0.485, "beat")
     # Factor on a late foot's touchdown speed; chosen: 8 mm/s on h1, still far below a blind touch
     late_speed_ratio: ClassVar[float] = 4.0

@@ -35,12 +35,17 @@ _SLOPE_OF_NOISE = 0.015
 class SwingCompliance:
     """A sole's descent and load, from lift-off to landed.
 
-    `force`: vertical in N on the sole, filtered; `by_wrench`: whether its law is "wrench"; `stopped`: whether virtual
-    force has stopped the swing (T 4.31).
+    `double_support`: the walk's, in s. Attributes `force`: vertical in N on the sole, filtered; `by_wrench`: whether
+    its law is "wrench"; `stopped`: whether virtual force has stopped the swing (T 4.31).
     """
 
     def __init__(
-        self, layout: SoleLayout, gains: ComplianceGains, touchdown: TouchdownGains, ground: GroundMapSettings
+        self,
+        layout: SoleLayout,
+        gains: ComplianceGains,
+        touchdown: TouchdownGains,
+        ground: GroundMapSettings,
+        double_support: float,
     ) -> None:
         self.layout = layout
         self.gains = gains
@@ -48,6 +53,9 @@ class SwingCompliance:
         self.ground = GroundMap(layout, ground)
         self.switch = SoleWrenchSwitch(touchdown.contact_force)
         self._leg = gains.body.in_si("leg")
+        brief = min(1.0, double_support / gains.crawl_time)
+        self._reserve = brief * gains.reserve
+        self._late = gains.late_speed_ratio / brief
         self._speed_unit = gains.body.in_si("leg/beat")
         self._change = _LARGEST_CHANGE * gains.body.in_si("leg/beat^2")
         self._turn_change = _LARGEST_TURN_CHANGE * gains.body.in_si("rad/beat^2")
@@ -97,7 +105,7 @@ class SwingCompliance:
         wanted = max(0.0, 1.0 - force / (g.stop * self._whole)) * planned
         if self.stopped or late:
             wanted = max(wanted, gap / g.damping)
-        wanted += g.touch_speed * (g.late_speed_ratio if late else 1.0)
+        wanted += g.touch_speed * (self._late if late else 1.0)
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         return self._moved(self._speed, period)
 
@@ -128,10 +136,14 @@ class SwingCompliance:
         left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
         quick = 1.0 - _SOONER * self._haste
         time_left /= quick
-        hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve))
+        reserve = self._reserve
+        hurry = min(1.0, 2.0 - time_left / reserve) if time_left < 2.0 * reserve else 0.0
         doubt = max(0.0, -view.distance) / (_DOUBT * self._leg)  # it should have touched already
-        crawl = g.touch_speed * (1.0 + (g.late_speed_ratio - 1.0) * hurry + doubt)
-        damping = quick * max(g.damping, (time_left - g.crawl_time) / g.steepness)
+        crawl = g.touch_speed * (1.0 + (self._late - 1.0) * hurry + doubt)
+        damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
+        if g.damping > reserve and left > g.margin:  # quick steps: it has to be there in time
+            damping = min(damping, max(reserve, time_left / math.log(left / g.margin)))
+        damping *= quick
         rise = -_LARGEST_RISE * self._speed_unit
         wanted = left / damping + crawl if left > 0.0 else max(rise, left / g.damping)
         behind = distance - self._aim

@@ -70,7 +70,7 @@ class Footing:
         compliance = None
         if s.compliance is not None:
             gains = s.compliance, s.touchdown, s.ground_map
-            compliance = {side: SwingCompliance(layouts[side], *gains) for side in SIDES}
+            compliance = {side: SwingCompliance(layouts[side], *gains, s.timing.double_support) for side in SIDES}
         self.frame = CommandFrame(feet["left"].position, s.period, s.alignment_time)
         self.motion = FootMotion(feet, s.period, s.swing_height, s.landing, compliance, s.swing)
         self.contacts = FootContacts(s.contact, layouts, s.ankle_reach, limits, s.ground_map.sensing_range)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from plantar import Percept, Reading, hex_layout
-from plantar.gait.contact.ground_map import GroundMapSettings
+from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import FootMotion, SoleSense
 from plantar.gait.feet.landing import Landing
@@ -164,7 +164,7 @@ def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height, spike, la
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
     compliance = {
-        side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for side in feet
+        side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings(), 0.3) for side in feet
     }
     motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
@@ -259,7 +259,8 @@ def test_a_foot_that_sees_the_ground_presses_as_it_is_told():
     held = {}
     for press in (None, 80.0, 130.0):
         compliance = {
-            side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for side in feet
+            side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings(), 0.3)
+            for side in feet
         }
         motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
         carried = []
@@ -289,7 +290,9 @@ def seeing(ground, tilt=0.0, rise=0.0, until=3.28, block=None):
     layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
     feet, steps = straight_plan(3)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
-    compliance = {s: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for s in feet}
+    compliance = {
+        s: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings(), 0.3) for s in feet
+    }
     motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
     heights = []

@@ -73,7 +73,7 @@ def test_a_standing_sole_turns_about_what_carries_it():
     feet, _ = straight_plan(2)
     layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
     compliance = {
-        side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for side in feet
+        side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings(), 0.3) for side in feet
     }
     motion = FootMotion(feet, PERIOD, 0.05, Landing(), compliance)
     pivot, before = np.array([0.1, -0.04]), motion.footholds["left"][0].copy()

@@ -14,8 +14,8 @@ PERIOD = 0.005
 X, Y = LAYOUT.positions[:, 0], LAYOUT.positions[:, 1]
 
 
-def swing(gains: ComplianceGains) -> SwingCompliance:
-    return SwingCompliance(LAYOUT, gains, TouchdownGains(), GroundMapSettings())
+def swing(gains: ComplianceGains, double_support: float = 0.3) -> SwingCompliance:
+    return SwingCompliance(LAYOUT, gains, TouchdownGains(), GroundMapSettings(), double_support)
 
 
 def test_close_to_the_ground_an_edge_goes_down_no_faster_than_the_sole() -> None:
@@ -91,6 +91,17 @@ def test_a_descent_is_over_before_weight_is_put_on_the_foot() -> None:
             speed, height, left = drop / PERIOD, height - drop, left - PERIOD
         assert 0.0 < left < 0.2
         assert speed < 1.5 * gains.late_speed_ratio * gains.touch_speed
+
+
+@pytest.mark.parametrize(("single", "double"), [(0.9, 0.3), (0.5, 0.1)])
+def test_a_descent_is_over_when_weight_is_put_on_the_foot_in_quick_steps(single: float, double: float) -> None:
+    compliance = swing(ComplianceGains(), double)
+    compliance.begin()
+    height, left = 0.05, 0.5 * single
+    while height > 0.0:
+        height -= compliance.descent(GroundView(height, height, None), 0.1, 0.0, left, PERIOD)
+        left -= PERIOD
+    assert left > -0.3 * double
 
 
 def test_a_foot_past_the_ground_that_it_sees_goes_down_faster() -> None:
