@@ -53,8 +53,8 @@ class Watched(Simulation):
         self.points: list[list[tuple[int, int]]] = []
         self.compared = self.other = 0
 
-    def advance(self) -> None:
-        super().advance()
+    def advance(self, steps: int) -> int:
+        super().advance(1)
         data = self.world.data
         self.torques.append(data.actuator_force[self.world.servos].copy())
         address = data.contact.efc_address[: data.ncon]  # -1 for points that only come near
@@ -65,6 +65,7 @@ class Watched(Simulation):
             truth = self.judge.truth()
             self.other += not is_hull(truth.ring, [p for foot in truth.points for p in foot])
             self.compared += 1
+        return 1
 
     def torque_steps(self) -> np.ndarray:
         """Largest torque step (k,) of each joint in 1 ms, over its limit, while no contact point came or went."""

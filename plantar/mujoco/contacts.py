@@ -19,7 +19,7 @@ class ContactReader:
     """Gathers the contacts of several feet of one simulation.
 
     `feet`: ids of each foot's geoms. Attribute `read`: returns each foot's contacts after the last `mj_step` or
-    `mj_forward`, in reused objects; `kernel`: what reads them.
+    `mj_forward`, in reused objects; `kernel`: what reads them; `sticks`: whether `read` does more.
     """
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
@@ -32,7 +32,8 @@ class ContactReader:
         self._feet = tuple(FootContacts(mask) for mask in own)
         self.kernel = FeetReader(self._data, self._model.opt, self._feet, self._listed)
         self.read: Callable[[], tuple[FootContacts, ...]] = self.kernel.read
-        if getattr(self._model, "flg_adhesion", False):  # of geoms, since MuJoCo 4
+        self.sticks = bool(getattr(self._model, "flg_adhesion", False))  # geoms may, since MuJoCo 4
+        if self.sticks:
             self.read = self._read_sticking
 
     def _listed(self) -> ContactList:

@@ -53,12 +53,13 @@ class Run(ABC):
     """A scene that is built and ready to run.
 
     `seed` of noise and open choices; `periods`: physics step and control period in s; `skipped`: counts of what was not
-    computed.
+    computed; `sense_every`: physics steps from one `sense` to the next.
     """
 
     seed: int
     periods: tuple[float, float]
     skipped: Counter[str]
+    sense_every: int = 1
 
     @property
     @abstractmethod
@@ -72,15 +73,15 @@ class Run(ABC):
 
     @abstractmethod
     def sense(self, k: int) -> None:
-        """Read what is measured at physics step `k`."""
+        """Read what is measured at physics step `k`: each multiple of `sense_every`, and some between."""
 
     @abstractmethod
     def control(self) -> float:
         """One control tick; returns the controller's wall time in us."""
 
     @abstractmethod
-    def advance(self) -> None:
-        """One physics step with drives, disturbances, judge."""
+    def advance(self, steps: int) -> int:
+        """Physics steps with drives, disturbances, judge: so many, or fewer; returns how many."""
 
     def after_tick(self) -> None:  # noqa: B027
         """Work after a control tick's physics step."""
@@ -161,6 +162,9 @@ class Run(ABC):
         step, tick = self.periods
         tick_every = max(1, round(tick / step))
         frame_every = max(1, round(1.0 / (FRAME_RATE * step)))
+        stops = [tick_every, self.sense_every] if add_frame is None else [tick_every, self.sense_every, frame_every]
+        turn = math.lcm(*stops)
+        ahead = [min(every - k % every for every in stops) for k in range(turn)]  # steps to the next stop
         ticks: list[float] = []
         began = clock.perf_counter()
         shown = began
@@ -176,15 +180,16 @@ class Run(ABC):
                 if progress is not None and (now := clock.perf_counter()) - shown > 0.1:
                     shown = now
                     progress(k * step / self.end, self.state_text())
-            if k % frame_every == 0:
-                if add_frame is None:
-                    self.skipped["rendered_frames"] += 1
-                else:
-                    add_frame()
-            self.advance()
+            if add_frame is not None and k % frame_every == 0:
+                add_frame()
             if is_tick:
+                self.advance(1)
                 self.after_tick()
-            k += 1
+                k += 1
+            else:
+                k += self.advance(min(ahead[k % turn], last - k, longest - k))
+        if add_frame is None:
+            self.skipped["rendered_frames"] += math.ceil(k / frame_every)
         overrun = (k * step, longest * step / _LONGEST) if k >= longest else None
         return Result(ticks, clock.perf_counter() - began, overrun)
 

@@ -18,7 +18,7 @@ cpdef int gather_feet(tuple feet, ContactList listed, forces) except -1
 @cython.final
 cdef class FeetReader:
     cdef object data, options, listed, cone
-    cdef tuple feet
+    cdef readonly tuple feet
     cdef dict lists
     cdef readonly Py_ssize_t count
     @cython.locals(count=Py_ssize_t, foot=FootContacts)

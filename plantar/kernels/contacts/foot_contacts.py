@@ -41,7 +41,7 @@ def gather_feet(feet, listed, forces):
 class FeetReader:
     """Gathers the contacts of several feet from a simulation's data after each of its steps.
 
-    Attribute `count`: contacts of all bodies at the last `read`.
+    Attributes `count`: contacts of all bodies at the last `read`; `feet`, as given.
 
     Args:
         data: Simulation's data: `ncon` contacts, with `efc_force` of all.

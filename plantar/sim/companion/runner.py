@@ -139,7 +139,7 @@ class Companion(Run):
                 channel.write(float(data.time), *row)
         return used
 
-    def advance(self) -> None:
+    def advance(self, steps: int) -> int:
         data = self.world.data
         self.experiment.judge(self.world, self.skin, float(data.time))
         if not self.ended:
@@ -147,6 +147,7 @@ class Companion(Run):
             mujoco.mj_step2(self.world.model, data)
             self.outside.step()
             self.joints.step()
+        return 1
 
 
 class _Hands:

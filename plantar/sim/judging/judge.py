@@ -4,7 +4,7 @@ After a physics step MuJoCo's contacts, forces and poses belong to its beginning
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -15,7 +15,9 @@ from plantar.common.sides import SIDES, other_side
 from plantar.gait.plan.plan_change import MovedStep
 from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.kernels.contacts.ground_reaction import GroundReaction
+from plantar.kernels.joints.setpoints import Setpoints
 from plantar.kernels.judging.estimate_error import EstimateError
+from plantar.kernels.judging.physics_steps import PhysicsSteps
 from plantar.kernels.judging.step_watch import FALLING, LEGS, OTHERS, OUTSIDE, StepWatch
 from plantar.layouts.layout import Side
 from plantar.sim.judging.ground_pieces import GroundPieces
@@ -202,18 +204,34 @@ class Judge:
         if self.pieces is not None:
             self.pieces.loads.step(feet)
         if seen:
-            if seen & OUTSIDE:
-                self.outside.look()
-            if seen & OTHERS:
-                self.others.step()
-            if seen & LEGS:
-                self.legs.step()
-            for bit, side in enumerate(SIDES):
-                if seen & 1 << bit:
-                    self._angles.append(self._angle(side))
-            if seen & FALLING and self.fall is None:
-                self._look_for_fall()
+            self.look(seen)
         return seen
+
+    def physics_steps(self, drives: Setpoints, step: Callable[[], None]) -> PhysicsSteps | None:
+        """Physics steps with their judge in one kernel, by what writes set-points and makes a step.
+
+        `look` takes in what it reports. None where others act in the scene, or the soles' contacts need more than
+        reading.
+        """
+        if self.actors or self._contacts.sticks:
+            return None
+        self.feet = self._contacts.read()  # the same objects after each step
+        pieces = None if self.pieces is None else self.pieces.loads
+        return PhysicsSteps(drives, step, self._contacts.kernel, self._watch, pieces)
+
+    def look(self, seen: int) -> None:
+        """Look closer at what `StepWatch.step` reported after a physics step."""
+        if seen & OUTSIDE:
+            self.outside.look()
+        if seen & OTHERS:
+            self.others.step()
+        if seen & LEGS:
+            self.legs.step()
+        for bit, side in enumerate(SIDES):
+            if seen & 1 << bit:
+                self._angles.append(self._angle(side))
+        if seen & FALLING and self.fall is None:
+            self._look_for_fall()
 
     def _angle(self, side: Side) -> float | None:
         """Angle in degrees between a sole and its most loaded flat face."""
@@ -246,7 +264,7 @@ class Judge:
         if pushed:
             self._pushed.append(time)
         self._estimates.update(com.tolist(), None if zmp is None else zmp.tolist())
-        if self.outside.springs.any():
+        if self.outside.forces.sprung():
             self.outside.look_at_springs()
         if moved:
             self.goal.move(time, moved)

@@ -50,7 +50,7 @@ class OutsideForce:
         self._base = model.body(base).name
         self._actors = tuple(actors)
         self._known = np.zeros((model.nbody, 6))
-        self.forces = AppliedForces(self._on_bodies, self._known, self._on_joints, self._own, _ROUNDING)
+        self.forces = AppliedForces(self._on_bodies, self._known, self._on_joints, self._own, self.springs, _ROUNDING)
         self.largest = 0.0
         self.since = 0.0
         self.where = ""

@@ -15,7 +15,8 @@ class MotorDrives:
     """Hands joint targets to motors, and moves angles on between control ticks.
 
     `world`: its actuators become torque sources with the gains; `plant`: True differences, or None. Attributes
-    `out_of_reach_since`: time in s of the first unreachable command, or None.
+    `out_of_reach_since`: time in s of the first unreachable command, or None; `plain`: None, as torques depend on
+    angles.
     """
 
     def __init__(self, world: World, motors: CommandMotors, plant: TruePlant | None = None) -> None:
@@ -34,6 +35,7 @@ class MotorDrives:
         self._targets = JointTargets(np.zeros(len(servos)), np.zeros(len(servos)))
         self._share = 1.0
         self._elapsed = 0.0
+        self.plain: None = None
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import numpy as np
 from plantar.common.sides import SIDES
 from plantar.gait.controller import Command, Start
 from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.kernels.judging.physics_steps import PhysicsSteps
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.robots.kinematics.robot_model import Visitor
@@ -98,6 +100,7 @@ class Simulation(Run):
         self.periods = self.world.period, self.settings.period
         self.touch = None if self.touched is None else self.touched.enter(self.world)
         self.sensors = self._sensor_suite()
+        self.sense_every = self.sensors.skin_every
         self.servos = self._drives()
         force = self.scene.push if self.scene.push.by == "force" else Push()
         self.pusher = Pusher(force, self.controller.schedule, self.seed)
@@ -114,10 +117,23 @@ class Simulation(Run):
                 self.sensors.body_skin = self.touch.read
         self.judges = Judges(self.walker, self.world, self.ground, self.pusher, self.touched, self.touch)
         self.judge = self.judges.judge
+        self._together = self._physics_steps()
         self.foothold_truth = self.judges.footholds
         self.recovery = self.judges.recovery
         self.speeds = self.judges.speeds
         self.zmps = self.judges.zmps
+
+    def _physics_steps(self) -> PhysicsSteps | None:
+        """Physics steps in one kernel; None where somebody pushes, touches or moves between them."""
+        drives = self.servos.plain
+        if drives is None or self.pusher.shoves or self.world.moving_ground or self.touch is not None:
+            return None
+        return self.judge.physics_steps(drives, self._physics_step())
+
+    def _physics_step(self) -> Callable[[], None]:
+        """`step_physics`, without a call of Python where nobody does more."""
+        usual = type(self).step_physics is Simulation.step_physics
+        return partial(mujoco.mj_step, self.world.model, self.world.data) if usual else self.step_physics
 
     def placed(self, start: Start) -> Start:
         """The start of the walk; others may move it."""
@@ -212,7 +228,14 @@ class Simulation(Run):
         self.skipped["percept_members"] += self.compute_rest(command, self._everything)
         return used
 
-    def advance(self) -> None:
+    def advance(self, steps: int) -> int:
+        together = self._together
+        if together is not None and self.servos.plain is not None:
+            steps = together.advance(steps)
+            if together.seen:
+                self.judge.look(together.seen)
+                check_stable(self.world.data.warning.number)
+            return steps
         self.servos.drive()
         if self.pusher.shoves:
             self.pusher.apply(self.world)
@@ -221,6 +244,7 @@ class Simulation(Run):
         self.step_physics()
         if self.judge.step():
             check_stable(self.world.data.warning.number)
+        return 1
 
     def step_physics(self) -> None:
         """One physics step with present set-points and pushes."""

@@ -28,7 +28,8 @@ class LegServos:
     same share of their way.
 
     `world`: the world; `period`: control period in s; `plant`: True differences, or None. Attributes `drive`: writes
-    the set-points of one physics step; `out_of_reach_since`: time in s of the first unreachable command, or None.
+    the set-points of one physics step; `plain`: the kernel that alone does so, or None; `out_of_reach_since`: time in s
+    of the first unreachable command, or None.
     """
 
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
@@ -58,6 +59,7 @@ class LegServos:
         self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
         self._reference = np.asarray(self._setpoints.reference)
         self._stiffness = 1.0
+        self.plain: Setpoints | None = None
         self.drive = self._choose_drive()
         self.out_of_reach_since: float | None = None
 
@@ -94,8 +96,10 @@ class LegServos:
 
     def _choose_drive(self) -> Callable[[], None]:
         """The kernel alone writes set-points of drives as modelled."""
+        as_modelled = self._drives is None and self._stiffness == 1.0
+        self.plain = self._setpoints if as_modelled else None
         plain: Callable[[], None] = self._setpoints.drive
-        return plain if self._drives is None and self._stiffness == 1.0 else self._drive_drawn
+        return plain if as_modelled else self._drive_drawn
 
     def _drive_drawn(self) -> None:
         if self._curve.acts:
