@@ -53,7 +53,7 @@ class Watched(Simulation):
         self.points: list[list[tuple[int, int]]] = []
         self.compared = self.other = 0
 
-    def advance(self, steps: int) -> int:
+    def advance(self, steps: int = 1) -> int:
         super().advance(1)
         data = self.world.data
         self.torques.append(data.actuator_force[self.world.servos].copy())

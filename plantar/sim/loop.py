@@ -80,7 +80,7 @@ class Run(ABC):
         """One control tick; returns the controller's wall time in us."""
 
     @abstractmethod
-    def advance(self, steps: int) -> int:
+    def advance(self, steps: int = 1) -> int:
         """Physics steps with drives, disturbances, judge: so many, or fewer; returns how many."""
 
     def after_tick(self) -> None:  # noqa: B027

@@ -21,8 +21,8 @@ from plantar.gait.safety.fault_log import FaultLog
 from plantar.gait.safety.safe_stop import SITS, SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
 from plantar.gait.safety.taxel_check import TaxelCheck
-from plantar.gait.safety.tick_clock import TickClock
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck, height_of_upright
+from plantar.kernels.safety.tick_clock import TickClock
 from plantar.kernels.safety.tracking import TrackingCheck
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.controller_settings import ControllerSettings
-from plantar.gait.estimate.com_height import CoMHeight
 from plantar.gait.plan.phases import Phase
 from plantar.gait.tick.footing import Footing
 from plantar.kernels.base.vectors import vector
+from plantar.kernels.gait.com_height import CoMHeight
 from plantar.kernels.gait.leaning_torso import leaning_torso
 from plantar.mechanics.base_state import BaseState
 
@@ -98,7 +98,8 @@ class BodyTargets:
             target += footing.contacts.rise
             if self._legs and motion.comes_down:
                 target = self._within_reach(target, stands, stance, state)
-        return self._ground.update(target) + self._settings.com_height
+        ground: float = self._ground.update(target)
+        return ground + self._settings.com_height
 
     def _within_reach(self, target: float, stands: float, stance: Side, state: BaseState) -> float:
         """A `target` in m, lower where the swing's end is out of its leg's reach: a leg that hangs straight is a strut

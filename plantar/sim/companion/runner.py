@@ -139,7 +139,7 @@ class Companion(Run):
                 channel.write(float(data.time), *row)
         return used
 
-    def advance(self, steps: int) -> int:
+    def advance(self, steps: int = 1) -> int:
         data = self.world.data
         self.experiment.judge(self.world, self.skin, float(data.time))
         if not self.ended:

@@ -228,7 +228,7 @@ class Simulation(Run):
         self.skipped["percept_members"] += self.compute_rest(command, self._everything)
         return used
 
-    def advance(self, steps: int) -> int:
+    def advance(self, steps: int = 1) -> int:
         together = self._together
         if together is not None and self.servos.plain is not None:
             steps = together.advance(steps)

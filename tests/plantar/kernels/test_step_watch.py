@@ -141,7 +141,7 @@ class Follower:
             self.stands,
             joints,
             stance,
-            forms.applied_forces.AppliedForces(self.applied, self.known, axes, own, 1e-9),
+            forms.applied_forces.AppliedForces(self.applied, self.known, axes, own, np.zeros(6), 1e-9),
             self.upright,
             self.center,
             list(self.places),
@@ -249,7 +249,11 @@ def test_any_force_that_is_not_known_is_found(forms, value):
     on_bodies = np.zeros((5, 6))
     known = np.zeros((5, 6))
     on_joints = np.zeros(7)
-    applied = forms.applied_forces.AppliedForces(on_bodies, known, on_joints, np.array([1, 4]), 1e-9)
+    springs = np.zeros(6)
+    applied = forms.applied_forces.AppliedForces(on_bodies, known, on_joints, np.array([1, 4]), springs, 1e-9)
+    assert not applied.sprung()
+    springs[5] = value
+    assert applied.sprung()
     assert not applied.unknown()
     for place in np.ndindex(5, 6):
         on_bodies[place] = value

@@ -262,3 +262,27 @@ def test_a_run_looks_for_garbage_among_its_own_objects_only():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_steps_in_one_kernel_are_those_made_one_by_one():
+    class ByOne(Simulation):
+        def reset(self):
+            super().reset()
+            self._together = None
+
+    class Kept(Simulation):
+        made = 0
+
+        def step_physics(self):
+            self.made += 1
+            super().step_physics()
+
+    ends = []
+    for kind in (Simulation, ByOne, Kept):
+        run = kind(load_scene("stones", ["steps=2"]), 3)
+        summary = run.run()
+        for timed in ("wall_time_s", "real_time_factor", "control_us"):
+            del summary[timed]
+        ends.append((summary, run.world.data.qpos.tolist(), run.judge.margin_min))
+    assert run.made == round(run.world.data.time / run.world.period)
+    assert ends[0] == ends[1] == ends[2]

@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 
-from plantar.gait.estimate.com_height import CoMHeight
+from plantar import kernels
+from plantar.kernels.gait import com_height
+from plantar.kernels.gait.com_height import CoMHeight
 
 
 def test_it_follows_a_step_without_a_jump_in_speed():
@@ -16,3 +18,11 @@ def test_it_follows_a_step_without_a_jump_in_speed():
 def test_it_stays_where_the_ground_is():
     height = CoMHeight(-0.7, 0.005)
     assert {height.update(-0.7) for _ in range(10)} == {-0.7}
+
+
+def test_compiled_and_interpreted_filter_agree():
+    heights = [form.CoMHeight(0.1, 0.005) for form in (com_height, kernels.python_form("com_height"))]
+    for target in np.random.default_rng(0).normal(0.0, 0.1, 200):
+        height, expected = (filtered.update(target) for filtered in heights)
+        assert height == expected
+        assert heights[0].rate == heights[1].rate

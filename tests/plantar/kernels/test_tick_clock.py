@@ -6,7 +6,9 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar.gait.safety.tick_clock import TickClock
+from plantar import kernels
+from plantar.kernels.safety import tick_clock
+from plantar.kernels.safety.tick_clock import TickClock
 
 
 @given(st.lists(st.floats(), min_size=1))
@@ -48,3 +50,14 @@ def test_a_late_tick_counts_those_before_it_that_were_missed():
         clock.time_of(reported)
         late.append(clock.late)
     assert late == [0, 0, 2, 0, 39, 0]
+
+
+@given(st.lists(st.one_of(st.floats(), st.floats(-0.02, 0.02)), min_size=1))
+def test_compiled_and_interpreted_clock_agree(reported):
+    clocks = [form.TickClock(0.005, 1.0) for form in (tick_clock, kernels.python_form("tick_clock"))]
+    for k, value in enumerate(reported):
+        time, expected = (clock.time_of(0.005 * k + value) for clock in clocks)
+        assert time == expected
+        assert clocks[0].odd == clocks[1].odd
+        assert clocks[0].late == clocks[1].late
+        assert clocks[0].jumped == clocks[1].jumped or math.isnan(clocks[1].jumped)
