@@ -34,4 +34,4 @@ def make_policy(task):
 if __name__ == "__main__":
     from plantar.sim.bench.footholds.foothold_run import TRIALS, run_trial
 
-    print(run_trial(make_policy, TRIALS[-1], "h1", seed=0))
+    print(run_trial(make_policy, TRIALS[0], "h1", seed=0))

@@ -43,7 +43,7 @@ from plantar.robots.sole_readings import AnkleSoles, SoleSource, TorqueSoles
 from plantar.robots.start import start_of_walk, velocity_command
 from plantar.robots.walk import Control, Walk, crouch_of
 
-__all__ = ["JointTargets", "MotorCommand", "RobotController", "load_controller"]
+__all__ = ["JointTargets", "MotorCommand", "RobotController", "load_controller", "without_taxels"]
 
 _STANDS = 0.25  # of the servos' stiffness, 12 m g h: three times what two ankles need to stand
 _SOLES = ("taxels", "force_torque", "torques")

@@ -116,7 +116,7 @@ def test_loads_of_the_ankles_are_those_of_the_soles(source):
 
 def test_a_body_whose_com_is_elsewhere_is_commanded_so():
     shift = np.array([0.012, -0.007, 0.003])
-    body: Any = SimpleNamespace(com_shift=shift, lean=0.0, joint_offsets=None, stand=lambda *_: None)
+    body: Any = SimpleNamespace(known=False, com_shift=shift, lean=0.0, joint_offsets=None, stand=lambda *_: None)
     (_, plain), (_, shifted) = first_tick(settings=("identify=false",)), first_tick(body=body)
     assert plain.com - shifted.com == pytest.approx(shifted.rotation_torso @ shift, abs=1e-6)
 
