@@ -120,12 +120,13 @@ def cell(rows: Sequence[Row]) -> str:
 def report() -> None:
     rows = latest(rows_of(BENCHMARK.path))
     whole = [r for r in rows if r["case"].endswith(f", {NOTHING}")]
+    scenes = [s for s in SCENES if any(r["case"] == f"{s}, {NOTHING}" for r in rows)]
     lines, figures = [], []
     for name in LEFT_OUT:
         mine = [r for r in rows if r["case"].endswith(f", {name}")]
         if not mine:
             continue
-        counts = [cell([r for r in mine if r["case"] == f"{scene}, {name}"]) for scene in SCENES]
+        counts = [cell([r for r in mine if r["case"] == f"{scene}, {name}"]) for scene in scenes]
         lines.append((name, *counts, cell(mine)))
         low, high = wilson_interval(sum(r["completed"] == "True" for r in mine), len(mine))
         robots = [cell([r for r in mine if r["robot"] == robot]) for robot in ROBOTS]
@@ -143,7 +144,7 @@ def report() -> None:
     head = ["left out", *ROBOTS, "completed, interval [%]", "falls"]
     head += ["largest impact [BW]", "smallest ZMP margin [mm]", "time at a torque's limit [%]"]
     page = FOLDER / "parts.md"
-    write_table(page, [markdown_table(("left out", *(f"`{s}`" for s in SCENES), "all"), lines), "", origin(BENCHMARK)])
+    write_table(page, [markdown_table(("left out", *(f"`{s}`" for s in scenes), "all"), lines), "", origin(BENCHMARK)])
     write_table(page, [markdown_table(head, figures)], "figures")
     grounds = []
     for name in sweeps():
@@ -152,6 +153,7 @@ def report() -> None:
             for sees in ("skin", "off")
             for robot in ROBOTS
         ]
-        grounds.append((name, *map(cell, by)))
+        if any(by):
+            grounds.append((name, *map(cell, by)))
     sides = [f"{robot}, {how}" for how in ("as the soles see it", "every foothold taken as whole") for robot in ROBOTS]
     write_table(page, [markdown_table(("ground", *sides), grounds)], "sweep")
