@@ -116,6 +116,16 @@ def contact_load(contacts: Contacts, i: wp.int32, world: wp.int32):
     return local, twist
 
 
+@func
+def side_of(own: wp.array(dtype=wp.int32), geoms: wp.vec2i) -> wp.int32:
+    """Which of two geoms alone is a skin's own: -1 for the first, 1 for the second, 0 for both or none."""
+    first = geoms[0] >= 0 and own[wp.max(geoms[0], 0)] != 0  # -1 is a flex
+    second = geoms[1] >= 0 and own[wp.max(geoms[1], 0)] != 0
+    if first == second:
+        return 0
+    return wp.where(first, -1, 1)
+
+
 @kernel
 def gather(sole: Sole, contacts: Contacts, work: Work):
     """Add each of the `contacts` to the lists of the `sole` in `work`, in its frame; a thread a contact."""
@@ -123,19 +133,18 @@ def gather(sole: Sole, contacts: Contacts, work: Work):
     if i >= contacts.count[0]:
         return
     geoms = contacts.geom[i]
-    first = geoms[0] >= 0 and sole.own[wp.max(geoms[0], 0)] != 0  # -1 is a flex
-    if first == (geoms[1] >= 0 and sole.own[wp.max(geoms[1], 0)] != 0):
+    side = side_of(sole.own, geoms)
+    if side == 0:
         return
     world = contacts.world[i]
     k = wp.atomic_add(work.size, world, 1)
     if k >= work.gap.shape[0]:
         return
     local, twist = contact_load(contacts, i, world)
-    sign = wp.where(first, wp.float64(-1.0), wp.float64(1.0))
     turn = wp.mat33d(contacts.xmat[world, sole.body])
     to_sole = wp.transpose(turn @ sole.turn)
     origin = wp.vec3d(contacts.xpos[world, sole.body]) + turn @ sole.place
-    axes = wp.transpose(wp.mat33d(contacts.frame[i])) * sign
+    axes = wp.transpose(wp.mat33d(contacts.frame[i])) * wp.float64(side)
     work.pair[k, world] = geoms
     work.gap[k, world] = wp.float64(contacts.dist[i])
     work.at[k, world] = to_sole @ (wp.vec3d(contacts.pos[i]) - origin)

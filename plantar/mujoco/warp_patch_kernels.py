@@ -6,7 +6,7 @@ Numbers are float64, from MuJoCo Warp's float32 contacts; `wp.int32(0)` declares
 
 from __future__ import annotations
 
-from plantar.mujoco.warp_kernels import Contacts, contact_load, func, kernel, struct, wp
+from plantar.mujoco.warp_kernels import Contacts, contact_load, func, kernel, side_of, struct, wp
 
 if wp is not None:
     _CYLINDER = wp.constant(wp.int32(5))  # of mjtGeom
@@ -281,15 +281,15 @@ def touch(patch: Patch, contacts: Contacts, work: PatchWork):
     if i >= contacts.count[0]:
         return
     geoms = contacts.geom[i]
-    first = geoms[0] >= 0 and patch.own[wp.max(geoms[0], 0)] != 0  # -1 is a flex
-    if first == (geoms[1] >= 0 and patch.own[wp.max(geoms[1], 0)] != 0):
+    side = side_of(patch.own, geoms)
+    if side == 0:
         return
     gap = wp.float64(contacts.dist[i])
     if contacts.address[i, 0] < 0 and gap > patch.reach:
         return
-    row = patch.geoms[wp.where(first, geoms[0], geoms[1])]
+    row = patch.geoms[wp.where(side < 0, geoms[0], geoms[1])]
     w = contacts.world[i]
-    frame = wp.transpose(wp.mat33d(contacts.frame[i])) * wp.where(first, wp.float64(-1.0), wp.float64(1.0))
+    frame = wp.transpose(wp.mat33d(contacts.frame[i])) * wp.float64(side)
     turn = wp.mat33d(contacts.xmat[w, patch.body])
     to_patch = wp.transpose(turn @ patch.turn)
     point = to_patch @ (wp.vec3d(contacts.pos[i]) - wp.vec3d(contacts.xpos[w, patch.body]) - turn @ patch.place)
