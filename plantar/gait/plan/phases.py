@@ -13,6 +13,9 @@ from plantar.common.settings.schema import Settings, number
 from plantar.common.sides import Side, other_side
 from plantar.errors import InputError
 
+UP = (0.2, 0.5)
+"""Of a single support, between which its foot is up by plan. Chosen: after it has been unloaded, before it descends."""
+
 
 class PhaseKind(IntEnum):
     """What the feet do."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
-from plantar.gait.plan.phases import Phase
+from plantar.gait.plan.phases import UP, Phase
 from plantar.kernels.safety.taxel_watch import TaxelWatch
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
@@ -24,10 +24,7 @@ _CONFIRMED = 0.04  # chosen: s; impacts are shorter
 _AIR = 0.02  # derived: weight on a taxel in the air: ten times the noise of an H1's
 _AIR_FOR = 0.06  # measured: s; a swing whose foot touches something early ends within 0.03 s
 _FEW = 0.1  # chosen: share of a sole's taxels; more of them that report in the air touch something
-UP = (0.2, 0.5)
-"""Of a single support, between which its foot is up by plan. Chosen: after it has been unloaded, before it descends."""
-
-_CARRIED = 0.7  # of the weight on the other foot then; chosen: bounded by a half, which two feet carry each
+_CARRIED = 0.7  # of the weight on the other foot while one is up; chosen: bounded by a half, which two feet carry each
 
 Readings = Mapping[Side, Reading]
 

@@ -87,7 +87,7 @@ class BodyTargets:
         motion = footing.motion
         stance = phase.stance
         if stance is None:
-            target = _MIDWAY * (motion.footholds["left"][0].item(2) + motion.footholds["right"][0].item(2))
+            target = 0.5 * (motion.footholds["left"][0].item(2) + motion.footholds["right"][0].item(2))
             target += footing.contacts.rise
         else:
             stands = motion.footholds[stance][0].item(2)

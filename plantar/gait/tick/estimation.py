@@ -17,8 +17,7 @@ from plantar.gait.estimate.identified_body import IdentifiedBody
 from plantar.gait.estimate.push_estimate import PushEstimate
 from plantar.gait.estimate.skin_load import percept_to_its_limit
 from plantar.gait.plan.footsteps import Footstep
-from plantar.gait.plan.phases import Phase, PhaseKind
-from plantar.gait.safety.taxel_check import UP
+from plantar.gait.plan.phases import UP, Phase, PhaseKind
 from plantar.kernels.gait.gyro_bias import SteadyLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
