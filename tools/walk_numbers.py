@@ -26,6 +26,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import TypeGuard
 
 ROOT = Path(__file__).parents[1]
 ENTRIES = ("plantar.gait.controller", "plantar.gait.controller_tables", "plantar.robots.controller_settings")
@@ -197,7 +198,7 @@ def _parsed(source: str) -> ast.Module:
     return ast.parse(source)
 
 
-def _is_number(node: ast.AST) -> bool:
+def _is_number(node: ast.AST) -> TypeGuard[ast.Constant]:
     return isinstance(node, ast.Constant) and type(node.value) in (int, float)
 
 
@@ -263,7 +264,7 @@ class _File:
             kind = "fixed" if value.func.id == "fixed" else "setting"
             unit = str(getattr(value.args[1], "value", "")) if len(value.args) >= _WITH_UNIT else ""
             value = value.args[0]
-        if not any(_is_number(n) and n.value and not self._is_place(n, up) for n, up in _inside(value, statement)):  # type: ignore[attr-defined]
+        if not any(_is_number(n) and n.value and not self._is_place(n, up) for n, up in _inside(value, statement)):
             return
         close = [*self._comments(statement), _text_of(after)]
         named = re.compile(rf"\A\s*{re.escape(name)}:|`{re.escape(name)}`")
@@ -315,7 +316,7 @@ class _File:
     def _literals(self, node: ast.AST, statement: ast.stmt) -> Iterator[tuple[ast.Constant, ast.AST]]:
         """Literals of an expression that need a reason, each with the expression that it stands in."""
         for this, up in _inside(node, statement):
-            if not isinstance(this, ast.Constant) or not _is_number(this) or this.value in _UNTOLD:
+            if not _is_number(this) or this.value in _UNTOLD:
                 continue
             if not self._is_place(this, up):
                 near = [part for part in up if isinstance(part, ast.BinOp | ast.Compare | ast.Call | ast.Tuple)]

@@ -30,9 +30,9 @@ from plantar.sensing.link_skin import BodySkin
 _YAW_ON_UNKNOWN_GROUND = 0.1
 
 _NO_LEGS = LegInertia()
-# derived: Leg, clearance of the swing foot of commanded steps at most,; `swing_height` of the controller's own settings
+# Leg, clearance of the swing foot of commanded steps at most; derived: `swing_height` of the controller's own settings
 _QUICK_HEIGHT = 1 / 12
-# and of steps whose time is stated: in leg/pace what a knee bends of its leg's length, for clearance and for a step
+# Of steps whose time is stated, in leg/pace: what a knee bends of its leg's length, for clearance and for a step
 _QUICK_BEND = 0.058  # chosen: by what knees of h1 reach in quick steps
 _STEP_BEND = 0.35  # chosen: a step as long as half a leg leaves no clearance but the least
 _LEAST_HEIGHT = 1 / 30  # chosen: 20 mm on h1, twice what a swing sags below its path

@@ -7,9 +7,9 @@ far chord parallel and equal to AB. While B, C and D stay on their edges the are
 
 __all__ = ["largest_parallelogram"]
 
-_B_ENDS = 0  # what ends a stretch of the walk: B meets a vertex,; nature: a code
-_D_ENDS = 1  # D does,; nature: a code
-_C_ENDS = 2  # C does,; nature: a code
+_B_ENDS = 0  # what ends a stretch of the walk: B meets a vertex; nature: a code
+_D_ENDS = 1  # D does; nature: a code
+_C_ENDS = 2  # C does; nature: a code
 _C_RETURNS = 3  # or C does, walking back; nature: a code
 
 
