@@ -25,6 +25,7 @@ _MOST_OF = {
     ("size", "nconmax"): 100_000,
     ("size", "njmax"): 100_000,
     ("size", "nkey"): 10_000,
+    ("size", "nuserdata"): 10_000_000,  # held once, 80 MB; other n... of "size" are held by each part
     ("size", "nstack"): 100_000_000,
     ("composite", "count"): 200,
     ("flexcomp", "count"): 100,

@@ -87,7 +87,7 @@ def test_a_model_that_asks_for_more_than_a_robot_is_refused(inside):
 
 
 def test_a_robots_model_passes(tmp_path):
-    text = '<size memory="100M" nuserdata="9"/><worldbody><replicate count="20"><body><geom/></body></replicate>'
+    text = '<size memory="100M" nuserdata="600000"/><worldbody><replicate count="20"><body><geom/></body></replicate>'
     root = parse_xml(f"<mujoco>{text}</worldbody></mujoco>".encode(), PlantarError, "a.xml")
     check_model_size(root, PlantarError, "a.xml")
 
