@@ -2,10 +2,12 @@
 
 import json
 import math
+import warnings
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
@@ -28,9 +30,11 @@ def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
         >>> roll_pitch_yaw(np.eye(3))
         [0.0, 0.0, 0.0]
     """
-    (xx, _, _), (yx, _, _), (zx, zy, zz) = rotation.tolist()
-    angles = math.atan2(zy, zz), math.atan2(-zx, math.hypot(xx, yx)), math.atan2(yx, xx)
-    return [round(math.degrees(v), 4) + 0.0 for v in angles]
+    with warnings.catch_warnings():
+        # A body that points straight down has no roll and yaw apart: SciPy says so, and puts both into the roll.
+        warnings.simplefilter("ignore", UserWarning)
+        angles = Rotation.from_matrix(rotation).as_euler("xyz", degrees=True)
+    return [round(v, 4) + 0.0 for v in angles.tolist()]
 
 
 def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], weighed: bool) -> str:
