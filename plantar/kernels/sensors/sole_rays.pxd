@@ -22,6 +22,9 @@ cdef class SoleRays:
     cdef double[::1] length, distance
     cdef object sample
     cdef double[::1] told
+    cdef double reach, height
+    cpdef void limit(self, double reach, double height) noexcept
+    cpdef int look(self) except -1
     cpdef bint lies_below(self, double reach, double height) noexcept
     cpdef int aim(self) except -1
     cdef void _shift(self) noexcept

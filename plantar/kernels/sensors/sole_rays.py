@@ -46,6 +46,21 @@ class SoleRays:
         self.distance = self.distances
         self.sample = np.zeros(count)
         self.told = self.sample
+        self.reach = 0.0
+        self.height = _INFINITE
+
+    def limit(self, reach, height):
+        """Let `look` cast rays only where any taxel `lies_below`."""
+        self.reach = reach
+        self.height = height
+
+    def look(self):
+        """Set `distances`, by rays where ground can be in range."""
+        if self.lies_below(self.reach, self.height):
+            self.cast()
+            self.measure()
+        else:
+            self.see_nothing()
 
     def lies_below(self, reach, height):
         """Whether any taxel, at most `reach` in m from the origin, can be below a `height` in m in world."""

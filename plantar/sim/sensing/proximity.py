@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.sensors.sole_rays import SoleRays
+from plantar.kernels.sensors.sole_sampling import ProximitySampling
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.named_id import named_id
 from plantar.sim.plant.ground import GroundColours
@@ -64,7 +65,14 @@ class SoleProximity:
             place = data.site_xpos[self._site], data.site_xmat[self._site].reshape(3, 3)
             ground = self._solids, data.geom_xpos, data.geom_xmat
             self._rays = SoleRays(self._start, self._way, _LIFT, self.range, *place, *ground)
+            self._rays.limit(self._reach, self._top + self.range)
         return self._rays
+
+    def plain_rays(self, data: Any) -> SoleRays | None:
+        """Rays in `data` whose own `look` is all there is to do; None on ground that only MuJoCo casts rays on, or of
+        several colours.
+        """
+        return self._rays_in(data) if self._simple and self._colours is None else None
 
     def within_range(self, data: Any) -> bool:
         """Whether any ground can be in range."""
@@ -80,6 +88,9 @@ class SoleProximity:
     def look(self, data: Any) -> SoleRays:
         """Cast rays where ground can be in range; returns them with `distances`."""
         rays = self._rays_in(data)
+        if self._simple and self._colours is None:
+            rays.look()
+            return rays
         if not self.within_range(data):
             rays.see_nothing()
             return rays
@@ -102,7 +113,7 @@ class ProximitySensor:
     """Proximity as its electronics deliver it: noisy, biased, with dead taxels.
 
     `proximity`: the noise-free sensor; `noise_std` in m; `bias` in m; `rng`: advances at each `read`, with or without
-    rays; `dead`: indices that read NaN.
+    rays; `dead`: indices that read NaN. Attribute `samples`: the kernel that keeps count of them.
     """
 
     def __init__(
@@ -115,10 +126,18 @@ class ProximitySensor:
     ) -> None:
         self.proximity = proximity
         self.dead = np.array(sorted(dead), dtype=np.int64)
-        self.cast = 0
-        self.skipped = 0
-        self._count = len(proximity.layout)
-        self._noise = white_noise(rng, bias, noise_std, self._count)
+        count = len(proximity.layout)
+        self.samples = ProximitySampling(white_noise(rng, bias, noise_std, count), count, self.dead)
+
+    @property
+    def cast(self) -> int:
+        """How many rays were cast."""
+        return int(self.samples.cast)
+
+    @property
+    def skipped(self) -> int:
+        """How many rays were left out, since no caller wanted them."""
+        return int(self.samples.skipped)
 
     def read(self, data: Any, wanted: bool, everything: bool = False) -> NDArray[np.float64] | None:
         """One sample.
@@ -126,14 +145,12 @@ class ProximitySensor:
         `everything`: cast the rays in any case. Returns (n,) in m, inf out of range, NaN for a dead taxel; None where
         not wanted.
         """
-        row = self._noise.advance()
-        count = self._count
         if not (wanted or everything):
-            self.skipped += count
+            self.samples.skip()
             return None
         rays = self.proximity.look(data)
-        self.cast += count
         if not wanted:
+            self.samples.leave()
             return None
-        sample: NDArray[np.float64] = rays.tell(self._noise, row, self.dead)
+        sample: NDArray[np.float64] = self.samples.of(rays)
         return sample

@@ -15,6 +15,8 @@ from plantar.errors import RobotError
 from plantar.kernels.contacts.foot_contacts import ContactsInSole
 from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.kernels.sensors.noise_rows import SampleClock, TaxelSample
+from plantar.kernels.sensors.sole_rays import SoleRays
+from plantar.kernels.sensors.sole_sampling import SoleSampling
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.mujoco.named_id import named_id
@@ -63,7 +65,7 @@ class SoleSkin:
         springs = self.pressure.springs if isinstance(self.pressure, SolePressure) else None
         self.springs: PressedSole | None = None if self._rim is not None else springs
         self._reach = reach
-        self._data: Any = None  # in which contacts are seen from the sole
+        self.data: Any = None  # in which contacts were last seen from the sole
         self._in_sole = ContactsInSole()
 
     def __len__(self) -> int:
@@ -95,14 +97,21 @@ class SoleSkin:
 
     def sampled(self, data: Any, contacts: FootContacts | None, sample: TaxelSample) -> NDArray[np.float64]:
         """What electronics read of the springs. Returns readings (n,) in N."""
-        seen = contacts if contacts is not None and data is self._data else self._seen_in(data, contacts)
+        seen = self._seen_in(data, contacts)
         sampled: NDArray[np.float64] = sample.of_contacts(self.springs, seen, self._in_sole, self._reach)
         return sampled
 
+    def sampling(
+        self, clock: SampleClock, sample: TaxelSample, proximity: ProximitySensor | None, queue: deque[Reading]
+    ) -> SoleSampling:
+        """All that `SkinSensor.read` does of its springs, in one kernel, in the data that it read last."""
+        samples = None if proximity is None else proximity.samples
+        return SoleSampling(clock, sample, self.springs, self._in_sole, self._reach, samples, queue, Reading)
+
     def _seen_in(self, data: Any, contacts: FootContacts | None) -> FootContacts:
         """The sole's contacts, looked at from the sole."""
-        if data is not self._data:
-            self._data = data
+        if data is not self.data:
+            self.data = data
             self._reader = ContactReader(self.model, data, (self.geom_ids,))
             self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
         return self._reader.read()[0] if contacts is None else contacts
@@ -137,6 +146,9 @@ class SkinSensor:
         self._direct = isinstance(skin, SoleSkin) and skin.springs is not None and errors is None
         self._queue: deque[Reading] = deque(maxlen=sensing.delay_periods + 1)
         self._clock = SampleClock(self.period, SAME_TIME)
+        self._data: Any = None  # in which the kernel samples
+        self._sampling: SoleSampling | None = None
+        self._rays: SoleRays | None = None
 
     def read(
         self, data: Any, contacts: FootContacts | None = None, *, near: bool = True, everything: bool = False
@@ -146,6 +158,10 @@ class SkinSensor:
         `everything`: measure it always; the reading holds it where wanted. Returns the reading; the same object until a
         newer sample arrives.
         """
+        sampling = self._sampling
+        if sampling is not None and data is self._data is self.skin.data and contacts is not None and not everything:
+            delivered: Reading = sampling.read(data.time, contacts, self._rays if near else None)
+            return delivered
         now = data.time
         queue = self._queue
         if not queue:
@@ -157,7 +173,17 @@ class SkinSensor:
             else:
                 force = self._sampled(now, data, contacts, distance)
             queue.append(Reading.taken_over(now, force, distance))
+            if self._direct and data is not self._data:
+                self._sample_by_kernel(data)
         return queue[0]
+
+    def _sample_by_kernel(self, data: Any) -> None:
+        """Let later samples in `data` be a kernel's, but for rays that only MuJoCo casts."""
+        proximity = self.proximity
+        self._rays = None if proximity is None else proximity.proximity.plain_rays(data)
+        self._data = data
+        if proximity is None or self._rays is not None:
+            self._sampling = self.skin.sampling(self._clock, self._sample, proximity, self._queue)
 
     def _sampled(
         self, now: float, data: Any, contacts: FootContacts | None, distance: NDArray[np.float64] | None

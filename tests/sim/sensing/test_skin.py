@@ -13,11 +13,13 @@ from plantar import Percept, RobotError, hex_layout
 from plantar.common.sides import SIDES
 from plantar.gait.command import Command, Sensors
 from plantar.sensing.force import center_of_pressure
-from plantar.sim.model.contact_truth import FootContacts, contact_wrench_in_frame, foot_contacts
+from plantar.sim.model.contact_truth import ContactReader, FootContacts, contact_wrench_in_frame, foot_contacts
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
+from plantar.sim.sensing.proximity import ProximitySensor, SoleProximity
 from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.skin import SkinSensor, SoleSkin
+from plantar.sim.terrain import GROUND_GROUP
 
 from ..rates import drawn_seeds
 
@@ -268,3 +270,37 @@ def test_a_walking_foot_in_the_air_touches_nothing(level):
     simulation.run()
     assert len(found) > 300
     assert sum(found) <= 2
+
+
+@pytest.mark.parametrize("delay", [0, 2])
+def test_a_sole_that_is_sampled_in_one_kernel_reads_the_same(delay):
+    model, data, skin = rig(f"{PLANE}<geom type='box' pos='0.1 0 0' size='0.05 0.2 0.004'/>")
+    model.geom_group[:2] = GROUND_GROUP
+    feet = ContactReader(model, data, (skin.geom_ids,))
+    sensors = []
+    for _ in range(2):
+        rays = SoleProximity(model, LAYOUT, "left_sole")
+        near = ProximitySensor(rays, 2e-3, 1e-3, np.random.default_rng(4), dead=[2])
+        sole = SoleSkin(model, LAYOUT, "left_sole", ["left_sole_box"])
+        sensing = Sensing(delay_periods=delay)
+        sensors.append(SkinSensor(sole, sensing, np.random.default_rng(5), near, dead=[7]))
+    kernel, parts = sensors
+    other = mujoco.MjData(model)
+    mujoco.mj_forward(model, other)
+    readings = set()
+    for k in range(400):
+        mujoco.mj_step(model, data)
+        wanted = k % 7 > 2
+        if k == 150:
+            kernel.skin.taxel_forces(other)  # another look at it, between two readings
+        one = kernel.read(data, feet.read()[0], near=wanted)
+        two = parts.read(data, near=wanted)
+        readings.add(one.time)
+        assert one.time == two.time
+        assert np.array_equal(one.force, two.force, equal_nan=True)
+        assert (one.proximity is None) == (two.proximity is None)
+        if one.proximity is not None:
+            assert np.array_equal(one.proximity, two.proximity, equal_nan=True)
+    assert len(readings) > 90
+    assert (kernel.proximity.cast, kernel.proximity.skipped) == (parts.proximity.cast, parts.proximity.skipped)
+    assert kernel.proximity.skipped > 0
