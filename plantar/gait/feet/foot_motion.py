@@ -283,6 +283,8 @@ class FootMotion:
         yaw = target.yaw - frame.turn if moves else self._swing.yaw_end
         self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start)
         self.hurried = hurried(self._swing.duration, self._unhurried)
+        if self.hurried and self._compliance is not None:
+            self._compliance[self._side].hasten()
 
     def _begin(
         self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame, again: bool = False

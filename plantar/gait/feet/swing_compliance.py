@@ -78,6 +78,10 @@ class SwingCompliance:
         self._wrench = np.zeros(6)
         self.stopped = False
 
+    def hasten(self) -> None:
+        """The foot has to catch the body: it comes down as in a swing with all haste."""
+        self._haste = 1.0
+
     def update_load(self, load: float) -> bool:
         """Whether the foot has landed (T 4.30 corrected), by `load` in N, less its tare."""
         self.force += 0.5 * (load - self.force)

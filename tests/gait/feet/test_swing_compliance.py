@@ -66,6 +66,23 @@ def test_only_a_hasty_foot_waits_for_its_plan_to_come_down(haste: float, late: b
     assert (height > 0.018) == late  # 20 mm by the plan
 
 
+def test_a_hurried_foot_is_down_sooner() -> None:
+    lasted = []
+    for hurries in (False, True):
+        compliance, height, left = swing(ComplianceGains()), 0.03, 0.1
+        compliance.begin()
+        if hurries:
+            compliance.hasten()
+        ticks = 0
+        while height > 0.0005:
+            height -= compliance.descent(GroundView(height, height, None), 0.3, 0.0, left, PERIOD)
+            left -= PERIOD
+            ticks += 1
+        lasted.append(ticks * PERIOD)
+    usual, quick = lasted
+    assert quick < 0.75 * usual
+
+
 def test_touchdown_has_hysteresis_and_the_load_is_held() -> None:
     gains = ComplianceGains()
     compliance = swing(gains)
