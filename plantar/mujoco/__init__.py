@@ -23,11 +23,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from plantar.mujoco.bound_skin import BoundSkin, SkinReading
+    from plantar.mujoco.foam import Foam
+    from plantar.mujoco.foam_skins import FoamSkins
     from plantar.mujoco.layer import ElasticLayer
     from plantar.mujoco.skin import Skin
     from plantar.mujoco.skins import Skins
 
-__all__ = ["BoundSkin", "ElasticLayer", "Skin", "SkinReading", "Skins"]
+__all__ = ["BoundSkin", "ElasticLayer", "Foam", "FoamSkins", "Skin", "SkinReading", "Skins"]
 
 if not TYPE_CHECKING:
 
@@ -38,5 +40,6 @@ if not TYPE_CHECKING:
         from plantar.common.optional_library import need_libraries
 
         need_libraries("sim", "mujoco", "scipy")
-        home = {"ElasticLayer": "layer", "Skin": "skin", "Skins": "skins"}.get(name, "bound_skin")
+        homes = {"ElasticLayer": "layer", "Foam": "foam", "FoamSkins": "foam_skins", "Skin": "skin", "Skins": "skins"}
+        home = homes.get(name, "bound_skin")
         return getattr(import_module(f"plantar.mujoco.{home}"), name)

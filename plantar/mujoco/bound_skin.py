@@ -78,7 +78,7 @@ class SkinReading(Reading):
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _made, (self.time, self.force, self._block, self.proximity, self.carried, self.slip)
+        return reading_of_block, (self.time, self.force, self._block, self.proximity, self.carried, self.slip)
 
 
 class BoundSkin:
@@ -404,11 +404,11 @@ class SkinView:
                 self._worn.reset()
             self._read_at = time
             force = self._worn.read(time, force, load.vectors)
-        return _made(time, force, block, near, self.carried, slip)
+        return reading_of_block(time, force, block, near, self.carried, slip)
 
     def still(self, time: float) -> SkinReading:
         """The reading of a skin that nothing touches, which only looks at contacts."""
-        return _made(time, self._no_force, self._still, None, True, None)
+        return reading_of_block(time, self._no_force, self._still, None, True, None)
 
 
 def _turning(spin: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -429,7 +429,7 @@ def _least_gaps(model: Any, body: int) -> NDArray[np.float64]:
     return np.where(of_geoms == weld[body], math.inf, gaps)
 
 
-def _made(
+def reading_of_block(
     time: float,
     force: NDArray[np.float64],
     block: NDArray[np.float64],

@@ -1,12 +1,14 @@
 """A skin's electronics: saturation, noise, gain errors, resolution, rate, delay."""
 
 from collections import deque
+from collections.abc import Callable
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.settings.schema import Settings, number, whole
+from plantar.common.settings.schema import Settings, number, switch, whole
+from plantar.mujoco.foam import Foam
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.reading import Reading
 
@@ -39,6 +41,29 @@ class SkinElectronicsSettings(Settings):
     dead_taxels: float = number(0.0, "1", 0.0, 0.9)
 
 
+class SkinSensing(SkinElectronicsSettings):
+    """Material and quality of a skin.
+
+    Attributes:
+        stiffness: In Pa/m; by default 10 mm of 100 kPa foam.
+        damping: In Pa s/m.
+        friction: Coulomb's coefficient.
+        slip_speed: In m/s, where friction reaches 71 % of Coulomb's.
+        everything: Cast all rays, for comparison; same readings.
+    """
+
+    stiffness: float = number(1e7, "Pa/m", 1e4, 1e10)
+    damping: float = number(3e4, "Pa s/m", 0.0, 1e8)
+    friction: float = number(0.5, "1", 0.0, 2.0)
+    slip_speed: float = number(0.02, "m/s", 1e-4, 1.0)
+    everything: bool = switch(False)
+
+    @property
+    def foam(self) -> Foam:
+        """What it is made of."""
+        return Foam(self.stiffness, self.damping, self.friction, self.slip_speed)
+
+
 class SkinElectronics:
     """Samples and delivers; `seed` draws noise, gain errors, dead taxels."""
 
@@ -59,39 +84,32 @@ class SkinElectronics:
     def read(
         self,
         time: float,
-        force: NDArray[np.float64],
-        distance: NDArray[np.float64],
+        whole: Callable[[], Reading],
         temperature: NDArray[np.float64] | None = None,
     ) -> Reading:
         """Returns the reading delivered at a `time` in s: the latest sample old enough, or the first; samples where
         due.
 
-        Of the true normal `force` (N,) in N, `distance` (N,) in m, inf out of range, negative where pressed in, and
-        `temperature` (N,) in degC, or None.
+        `whole` returns the true reading of the N taxels, as `FoamSkins.whole`; `temperature` (N,) in degC, or None.
         """
         if time >= self._due - 1e-9 or self._delivered is None:
             period = 1.0 / self.settings.rate
             self._due = time + period if self._due == -np.inf else self._due + period
-            self._waiting.append(self._sample(time, force, distance, temperature))
+            self._waiting.append(self._sample(time, whole(), temperature))
             if self._delivered is None:
                 self._delivered = self._waiting[0]
             if len(self._waiting) > self.settings.delay_periods:
                 self._delivered = self._waiting.popleft()
         return self._delivered
 
-    def _sample(
-        self,
-        time: float,
-        force: NDArray[np.float64],
-        distance: NDArray[np.float64],
-        temperature: NDArray[np.float64] | None,
-    ) -> Reading:
+    def _sample(self, time: float, true: Reading, temperature: NDArray[np.float64] | None) -> Reading:
         s = self.settings
+        force = true.force
         levels = self._levels
         noise = self._rng.standard_normal((2, len(self._skin))) * s.noise
         pressed = np.rint((force / (force + self._half_force) + noise[0]) * levels).clip(0.0, levels - 1.0)
         measured_force = s.half_force * pressed / (levels - pressed)
-        near = np.maximum(distance, 0.0)
+        near = np.maximum(true.distance, 0.0)
         seen = np.rint((self._half_distance / (near + self._half_distance) + noise[1]) * levels).clip(1.0, levels)
         measured_distance = s.half_distance * (levels - seen) / seen
         measured_distance[measured_distance >= self._skin.ranges] = np.inf

@@ -15,9 +15,10 @@ from plantar.common.settings.overrides import owner_of, put_settings, split_sett
 from plantar.common.settings.schema import Settings, choice, number
 from plantar.common.settings.unknown_keys import nearest, refuse_other_than_texts, refuse_unknown_keys
 from plantar.errors import SceneError
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.reading import Reading
-from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.sim.body_skin.electronics import SkinSensing
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.lidar import LidarSettings
 from plantar.sim.companion.machine import Machine
@@ -113,6 +114,7 @@ class Experiment:
         duration: Simulated time in s.
         fell: Whether the machine fell, which ends the run.
         done: Whether all is finished, likewise.
+        temperature: True (N,) in degC of the skin's taxels by a heat model, or None.
         settings_type: Class of the scene's table `[experiment]`.
         control_type: Class of the scene's table `[control]`: the controller's gains and switches.
         columns: Names of those figures that a sweep writes into columns.
@@ -136,6 +138,7 @@ class Experiment:
         self.duration = 5.0
         self.fell = False
         self.done = False
+        self.temperature: NDArray[np.float64] | None = None
         self.rng = np.random.default_rng([seed, 0xE])
 
     def add_to(self, spec: Any) -> None:
@@ -151,8 +154,8 @@ class Experiment:
     def act(self, world: World, time: float) -> None:
         """Move actors in the `world` at `time` in s, each physics step, with forces in `data.qfrc_applied`."""
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
-        """Look at the true `world` and skin `sensor` at `time` in s, each physics step."""
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
+        """Look at the true `world` and the skin, `sensor`, at `time` in s, each physics step."""
 
     def verdict(self) -> Verdict:
         """The verdict, after the run."""

@@ -4,6 +4,7 @@ import time as clock
 from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +14,11 @@ from numpy.typing import NDArray
 
 from plantar.errors import SceneError
 from plantar.kernels.judging.joint_extremes import JointExtremes
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.recordings.recorder import Channel, Recorder
-from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.body_skin.surface import skin_from_tables
+from plantar.sensing.reading import Reading
+from plantar.sim.body_skin.electronics import SkinElectronics
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
 from plantar.sim.companion.drives import Drives, Encoders
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import CompanionScene, World
@@ -41,7 +44,10 @@ class Companion(Run):
         alone = machine.spec().compile()
         self.world = _build(machine, alone, self.experiment.add_to)
         body_skin = skin_from_tables(alone, machine.patches, f"machine '{machine.name}'")
-        self.skin = SkinSensor(self.world.model, body_skin, scene.skin, seed)
+        obstacles = np.flatnonzero(self.world.model.geom_group == OBSTACLE_GROUP).tolist()
+        sensing = scene.skin
+        self.skin = FoamSkins(self.world.model, body_skin, sensing.foam, obstacles, everything=sensing.everything)
+        self._electronics = SkinElectronics(body_skin, sensing, seed)
         _misjudge(alone, control.model_error, seed)
         self.robot = MujocoDynamics(alone)
         self.controller: Any = self.experiment.controller(machine, body_skin)
@@ -84,7 +90,7 @@ class Companion(Run):
 
     def open_log(self, path: Path, files: ExitStack) -> None:
         world = self.world
-        skin = self.skin.skin
+        skin = self.skin.body_skin
         metadata = {"scene": self.scene.name, "robot": world.machine.name, "seed": self.seed}
         recorder = files.enter_context(Recorder(path, metadata))
         fields = [(f"link_{i}_{part}", 3) for i in range(len(skin.links)) for part in ("force", "moment")]
@@ -116,9 +122,9 @@ class Companion(Run):
         data = self.world.data
         self.experiment.act(self.world, float(data.time))
         mujoco.mj_step1(self.world.model, data)
-        self.skin.apply(data)
+        self.skin.press(data)
         self.hands.acted()
-        self.skin.read(data)  # samples at the skin's own rate, whatever the control period
+        self._read()  # samples at the skin's own rate, whatever the control period
         if self.lidar is not None and k % self._scan_every == 0:
             self.controller.scan(self.lidar.scan(data))
 
@@ -126,7 +132,7 @@ class Companion(Run):
         data = self.world.data
         if not (np.isfinite(data.qpos).all() and np.abs(data.qvel).max(initial=0.0) < 1e3):
             raise SceneError(f"the simulation of scene '{self.scene.name}' became unstable at {data.time:.3f} s")
-        reading = self.skin.read(data)
+        reading = self._read()
         qpos, qvel = self.encoders.read()
         start = clock.perf_counter()
         self.robot.update(qpos, qvel, float(data.time))
@@ -138,6 +144,10 @@ class Companion(Run):
             for channel, row in zip(self._channels, rows, strict=True):
                 channel.write(float(data.time), *row)
         return used
+
+    def _read(self) -> Reading:
+        data = self.world.data
+        return self._electronics.read(float(data.time), partial(self.skin.whole, data), self.experiment.temperature)
 
     def advance(self, steps: int = 1) -> int:
         data = self.world.data
@@ -153,7 +163,7 @@ class Companion(Run):
 class _Hands:
     """What the experiment applies to bodies by `xfrc_applied` in its `act`: it is an actor of the scene."""
 
-    def __init__(self, data: Any, skin: SkinSensor) -> None:
+    def __init__(self, data: Any, skin: FoamSkins) -> None:
         self._on_bodies = data.xfrc_applied
         self._skin = skin
         self._applied = np.zeros_like(self._on_bodies)

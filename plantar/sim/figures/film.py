@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import Side
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sensing.reading import Reading
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.figures.drawn_run import scale_colours
 from plantar.sim.figures.render import Camera, VideoWriter, View, opencv
@@ -78,7 +78,7 @@ class BodyFilm(_Filmed):
     """
 
     def __init__(
-        self, path: str | os.PathLike[str], model: Any, data: Any, skin: SkinSensor, body: str, view: View
+        self, path: str | os.PathLike[str], model: Any, data: Any, skin: FoamSkins, body: str, view: View
     ) -> None:
         super().__init__(path, model, model.body(body).id, view=view, groups=[OBSTACLE_GROUP])
         self._data = data
@@ -86,7 +86,7 @@ class BodyFilm(_Filmed):
         self._weight = float(
             np.abs(model.opt.gravity[2]) * model.body_subtreemass[model.body_rootid[model.body(body).id]]
         )
-        patches = skin.skin.patches
+        patches = skin.body_skin.patches
         self._bodies = np.concatenate([np.full(len(p.positions), model.body(p.link).id) for p in patches])
         self._places = np.concatenate([p.positions for p in patches])
         self._colours = scale_colours(1.0)
@@ -106,7 +106,7 @@ class BodyFilm(_Filmed):
 
     def _write_loads(self, picture: NDArray[np.uint8]) -> None:
         cv2 = opencv()
-        skin = self._skin.skin
+        skin = self._skin.body_skin
         loads = {p.name: float(self._skin.force[skin.slices[p.name]].sum()) / self._weight for p in skin.patches}
         most = sorted(loads.items(), key=lambda load: -load[1])[:_LINES]
         lines = [

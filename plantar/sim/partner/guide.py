@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import BodyScale
 from plantar.mechanics.easing import minimum_jerk
-from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sim.model.world import World
 from plantar.sim.partner.hand import body_point
 from plantar.sim.partner.settings import GuideSettings
@@ -112,7 +112,7 @@ class Guide(Partner):
         """Held arm's true middle (3,) in m and velocity (3,) in m/s, world frame."""
         return body_point(world.data, self._link, self._root, self.grip.point)
 
-    def drive(self, world: World, skin: SkinSensor) -> None:
+    def drive(self, world: World, skin: FoamSkins) -> None:
         """Set its forces in the `world` for a physics step, after `skin`."""
         data = world.data
         s = self.settings

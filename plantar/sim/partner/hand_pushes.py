@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from plantar.common.settings.body_scale import BodyScale
 from plantar.errors import SceneError
 from plantar.mechanics.same_time import SAME_TIME
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.upper_body import FACES
 from plantar.sim.model.world import World
 from plantar.sim.partner.hand import Hand, HandTarget, body_point
@@ -120,7 +120,7 @@ class HandPushes:
             return True
         return self._next < len(self.pushes) and time >= self.pushes[self._next].when() - way
 
-    def drive(self, world: World, skin: SkinSensor) -> None:
+    def drive(self, world: World, skin: FoamSkins) -> None:
         """Move hands in the `world` for a physics step, after `skin`."""
         time = float(world.data.time) + SAME_TIME
         push = self.pushes[self._next] if self._next < len(self.pushes) else None
@@ -160,7 +160,7 @@ class HandPushes:
         ]
         return {"height_above_base_m": round(self.height, 4), "pushes": rows}
 
-    def _follow(self, push: HandPush | None, time: float, period: float, skin: SkinSensor, frame: "_Frame") -> None:
+    def _follow(self, push: HandPush | None, time: float, period: float, skin: FoamSkins, frame: "_Frame") -> None:
         if push is None or time < push.when() - _APPROACH * self._body.beat:
             if not self._next:
                 return

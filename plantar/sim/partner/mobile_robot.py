@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 
 from plantar.common.settings.body_scale import BodyScale
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.model.world import World
 from plantar.sim.partner.settings import PartnerSettings
 from plantar.sim.partner.touch import Partner
@@ -131,7 +131,7 @@ class MobileRobot(Partner):
         world.data.qpos[self._place] = self._start
         world.data.qvel[self._axis] = 0.0
 
-    def drive(self, world: World, skin: SkinSensor) -> None:
+    def drive(self, world: World, skin: FoamSkins) -> None:
         """Measure, then follow the reference in the `world`, after `skin`."""
         data = world.data
         s = self.settings

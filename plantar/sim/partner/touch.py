@@ -1,6 +1,7 @@
 """Skin in the world, partners that press on it, and their physics step."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, Protocol
 
 import mujoco
@@ -8,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.reading import Reading
-from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.sim.body_skin.electronics import SkinElectronics, SkinSensing
 from plantar.sim.model.world import World
 
 _SLIP = (
@@ -34,7 +36,7 @@ class Partner(Protocol):
         """Whether the skin may measure it at a time in s."""
         return True
 
-    def drive(self, world: World, skin: SkinSensor) -> None:
+    def drive(self, world: World, skin: FoamSkins) -> None:
         """Set its forces in the `world` for a physics step, after `skin`."""
 
 
@@ -62,7 +64,9 @@ class Touch:
         self._world = world
         self.partners = tuple(partners)
         geoms = [geom for partner in self.partners for geom in partner.bind(world)]
-        self.sensor = SkinSensor(world.model, skin, skin_material(world.body), seed, geoms)
+        material = skin_material(world.body)
+        self.sensor = FoamSkins(world.model, skin, material.foam, geoms)
+        self._electronics = SkinElectronics(skin, material, seed)
         self._near = True
 
     def place(self) -> None:
@@ -70,10 +74,12 @@ class Touch:
         for partner in self.partners:
             partner.place(self._world)
         mujoco.mj_forward(self._world.model, self._world.data)
+        self.sensor.press(self._world.data)
 
     def read(self) -> Reading:
         """Read the skin."""
-        return self.sensor.read(self._world.data)
+        data = self._world.data
+        return self._electronics.read(float(data.time), partial(self.sensor.whole, data))
 
     @property
     def force(self) -> NDArray[np.float64]:
@@ -84,7 +90,7 @@ class Touch:
     def wrench(self) -> NDArray[np.float64]:
         """True wrench (6,) on the robot about the world's origin in N and N m, last step."""
         found = self.sensor.wrenches.sum(axis=0)
-        for link, wrench in zip(self.sensor.skin.links, self.sensor.wrenches, strict=True):
+        for link, wrench in zip(self.sensor.body_skin.links, self.sensor.wrenches, strict=True):
             found[3:] += np.cross(self._world.data.body(link).xpos, wrench[:3])
         return np.asarray(found)
 
@@ -94,7 +100,7 @@ class Touch:
         mujoco.mj_step1(world.model, world.data)
         near = any(partner.near(float(world.data.time)) for partner in self.partners)
         if near or self._near:
-            self.sensor.apply(world.data)
+            self.sensor.press(world.data)
         self._near = near
         for partner in self.partners:
             partner.drive(world, self.sensor)

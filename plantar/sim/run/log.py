@@ -148,7 +148,7 @@ class RunLog(ExitStack):
     def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
         measured = np.full(3, np.nan)
         if sensors.skin is not None:
-            skin = touch.sensor.skin
+            skin = touch.sensor.body_skin
             world = self._world
             active = sensors.skin.force >= skin.thresholds
             measured = np.zeros(3)

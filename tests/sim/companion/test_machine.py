@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
-from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.mujoco import FoamSkins
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.machine import builtin_machines, load_machine
@@ -135,9 +135,9 @@ def test_skin_is_laid_on_geoms_of_any_group_and_sees_obstacles_alone(tmp_path, g
     model = spec.compile()
     skin = skin_from_tables(found.spec().compile(), found.patches, found.name)
     data = mujoco.MjData(model)
-    sensor = SkinSensor(model, skin, SkinSensing(), 0)
+    sensor = FoamSkins(model, skin, None, np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist())
     mujoco.mj_forward(model, data)
-    sensor.apply(data)
+    sensor.press(data)
     assert len(skin) > 20
     assert np.isfinite(sensor.distance).sum() > 0
     assert sensor.distance.min() == pytest.approx(0.01, abs=0.008)

@@ -129,7 +129,7 @@ def test_a_run_leaves_its_recording_and_prints_as_walks_do(scene, tmp_path):
     companion = Companion(scene(), 0)
     summary = companion.run_to_files(tmp_path / "a.mcap", None, tmp_path / "plots", None)
     run = read_mcap(tmp_path / "a.mcap")
-    assert run.topics["/body_skin"].fields["force"].shape == (100, len(companion.skin.skin))
+    assert run.topics["/body_skin"].fields["force"].shape == (100, len(companion.skin.body_skin))
     assert np.ptp(run.topics["/joints"].fields["position"], axis=0).max() < 0.02
     first, *lines = run_text(summary).splitlines()
     assert first == "stand with mobile-arm, seed 0: completed, 0.2 s"

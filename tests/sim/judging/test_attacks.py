@@ -172,17 +172,17 @@ def test_a_robot_that_leans_on_its_partner_does_not_walk(force: tuple[float, flo
     simulation = Simulation(load_scene("leader-follower", SHORT))
     assert simulation.touch is not None
     sensor = simulation.touch.sensor
-    apply = sensor.apply
+    press = sensor.press
 
     def carries(data: Any) -> None:
         sensor._dirty = True
-        apply(data)
+        press(data)
         torso = simulation.world.torso
         sensor.wrenches[0, :3] += force
         for applied in (sensor._applied, data.xfrc_applied):
             applied[torso, :3] += force
 
-    sensor.apply = carries  # type: ignore[method-assign]
+    sensor.press = carries  # type: ignore[method-assign]
     simulation.touch.partners[0].near = lambda time: True  # type: ignore[method-assign]
     found = criteria(simulation.run())
     assert reason in found

@@ -66,7 +66,7 @@ def test_a_push_away_from_the_last_one_stops_the_body():
 
 def test_taxels_measure_the_true_force_and_only_during_a_push():
     touch, _ = pushed((20.0, 0.0))
-    skin, felt = touch.sensor.skin, []
+    skin, felt = touch.sensor.body_skin, []
     data = touch._world.data
     while data.time < 0.7:
         touch.step()
@@ -84,7 +84,7 @@ def test_taxels_measure_the_true_force_and_only_during_a_push():
 def test_a_waiting_hand_is_beyond_what_the_skin_sees():
     touch, _ = pushed((20.0, 0.0))
     run(touch, 0.05)
-    touch.sensor.apply(touch._world.data)
+    touch.sensor.press(touch._world.data)
     assert np.isinf(touch.sensor.distance).all()
 
 

@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 
 from plantar.common.settings.schema import Settings, number, switch
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
@@ -112,7 +112,7 @@ class Feather(StandingExperiment):
             visitor.act(world, time)
         super().act(world, time)
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         super().judge(world, sensor, time)
         self._measured = max(self._measured, float(sensor.force.max()))
         if self._steps % _LOOK_EVERY:

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from plantar.common.settings.schema import Settings, number, tables
 from plantar.errors import InputError
 from plantar.mechanics.rotation import rotation_from_angles
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.experiment import Experiment, Verdict, World, unmet
 from plantar.sim.companion.handling.actors import Fist, Push, Visit, Visitor, come_and_go
@@ -245,7 +245,7 @@ class ForceTracking(Experiment):
         world.data.mocap_pos[place] = self._places["pivot"] + _HALF_THICK * rotation[:, 0]
         mujoco.mju_mat2Quat(world.data.mocap_quat[place], rotation.ravel())
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         self._measured = math.sqrt(float(np.square(sensor.on_obstacles["fist"][:3]).sum()))
         force = sensor.patch_force("hand")
         self._bumped += 1e-3 * (world.data.ncon > 0)  # skin has no contacts of MuJoCo's, so it is the base or the arm
@@ -259,7 +259,7 @@ class ForceTracking(Experiment):
         if self._steps % _EVERY == 0:
             self._judge_motion(world, sensor, time, force)
 
-    def _judge_motion(self, world: World, sensor: SkinSensor, time: float, force: float) -> None:
+    def _judge_motion(self, world: World, sensor: FoamSkins, time: float, force: float) -> None:
         hand, rotation = world.pose("hand")
         middle, turned = world.pose("object")
         front = -turned[:, 0]
@@ -280,7 +280,7 @@ class ForceTracking(Experiment):
         self._base = np.maximum(self._base, np.abs(base))
         if self.settings.person:
             self._nearest = min(self._nearest, self._clearance(world))
-        moment = rotation.T @ sensor.wrenches[sensor.skin.links.index("hand"), 3:]
+        moment = rotation.T @ sensor.wrenches[sensor.body_skin.links.index("hand"), 3:]
         self.record.add(time, self.wanted(time) if in_contact else math.nan, force, distance, moment, hand, base, tilt)
 
     def _in_contact(self, time: float) -> bool:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, choice, number, tables, text
 from plantar.errors import SceneError
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.experiment import Experiment, Verdict, World, unmet
 from plantar.sim.companion.handling.actors import come_and_go
 from plantar.sim.companion.machine import Machine
@@ -151,7 +151,7 @@ class IntentionalContactExperiment(Experiment):
             for slide, part in zip(slides, size * way, strict=True):
                 slide.qfrc_applied[0] = part
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         origin, rotation = world.pose(self._tip[0])
         tip = origin + rotation @ self._tip[1]
         pushes = {name: w[:3] + self._pressed[name] for name, w in sensor.on_obstacles.items()}

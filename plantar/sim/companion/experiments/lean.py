@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number
 from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
@@ -132,7 +132,7 @@ class Lean(StandingExperiment):
             found = feet_contacts(world.model, world.data, grounds)
             self._carried = [-float(contacts.forces[:, 2].sum()) for contacts in found]
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         self._steps += 1
         if self._steps % _LOOK_EVERY:
             return

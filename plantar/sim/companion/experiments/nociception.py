@@ -12,10 +12,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from plantar.common.settings.schema import Settings, number, switch
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.reading import Reading
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
@@ -152,7 +152,7 @@ class Nociception(StandingExperiment):
             probe.pad.wanted = 0.5 * probe.taxels + self.rate * rising * probe.taxels / 4.0 if pressing else 0.0
         super().act(world, time)
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         super().judge(world, sensor, time)
         moved = float(np.linalg.norm(world.pose(_LINK)[0] - self._rest))
         for probe in self.probes.values():

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number, switch
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
@@ -126,7 +126,7 @@ class Pressure(StandingExperiment):
             push.pad.wanted = self.force if push.begin <= time and not done else 0.0
         super().act(world, time)
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         super().judge(world, sensor, time)
         joints = np.array([world.data.joint(name).qpos[0] for name in _JOINTS])
         for push in self._pushes.values():

@@ -13,10 +13,10 @@ import mujoco
 import numpy as np
 
 from plantar.common.settings.schema import number, switch
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.reading import Reading
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
@@ -149,10 +149,9 @@ class Stove(StandingExperiment):
         circle = np.array([self._radius * math.cos(angle), self._radius * math.sin(angle), self.height])
         return (1.0 - share) * self._start + share * (self.middle + circle)
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         super().judge(world, sensor, time)
-        if sensor.temperature is None:
-            sensor.temperature = self._warmth
+        self.temperature = self._warmth
         if self._steps % _WARM_EVERY:
             return
         origin, rotation = world.pose(_LINK)

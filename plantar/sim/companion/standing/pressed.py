@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.settings.schema import Settings, number
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingController
@@ -164,7 +164,7 @@ class PressedExperiment(StandingExperiment):
             contact.act(time, self.pressing(contact.pad))
         super().act(world, time)
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         super().judge(world, sensor, time)
         if self._steps == _RESTS:
             for contact in self.contacts:

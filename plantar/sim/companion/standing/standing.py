@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.mujoco.foam_skins import FoamSkins
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.experiment import Experiment, World, unmet
@@ -151,7 +151,7 @@ class StandingExperiment(Experiment):
         pairs += [(a, b) for a in left for b in right]
         return SelfCollision(pairs, margin=0.03, stiffness=2000.0, damping=60.0)
 
-    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+    def judge(self, world: World, sensor: FoamSkins, time: float) -> None:
         self._forces.clear()
         for pad in self.pads:
             if not pad.parked:

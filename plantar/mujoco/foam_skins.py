@@ -1,7 +1,8 @@
-"""Simulated skin on any link, and how it presses back on obstacles.
+"""Skins of foam: what sinks in is pressed back, and read as any skin of a model.
 
-An elastic foundation: each taxel's ray measures depth; pressure follows from depth and rate, friction from sliding.
-Both act on link and obstacle, whose MuJoCo contacts are off.
+MuJoCo's contacts are points, at most a few a pair of shapes, and as stiff as the mass behind them. Foam yields where it
+is pressed, by its own stiffness: each taxel's ray measures a depth, pressure follows from depth and rate, friction from
+sliding. Both act on the link and on what presses, whose MuJoCo contacts with each other are off.
 """
 
 from collections.abc import Sequence
@@ -11,37 +12,22 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.settings.schema import number, switch
-from plantar.errors import RobotError
+from plantar.common.arguments import instance
+from plantar.errors import InputError, RobotError
+from plantar.kernels.contacts.pressed_patch import load_block, load_parts
+from plantar.mujoco.bound_skin import SkinReading, reading_of_block
+from plantar.mujoco.foam import Foam
+from plantar.mujoco.foam_obstacle import Obstacle
+from plantar.mujoco.named_id import named_id
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.reading import Reading
-from plantar.sim.body_skin.electronics import SkinElectronics, SkinElectronicsSettings
-from plantar.sim.body_skin.obstacle import Obstacle
-from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 
 LIFT = 0.02
 """Depth in m below the surface from which rays start: what sinks in deeper is not measured."""
 
 _CONTACT_BIT = 1 << 20  # MuJoCo's bit of contacts among obstacles and what has no skin
 _LONGEST_STEP = 0.02  # s between two physics steps over which an obstacle's velocity is taken
-
-
-class SkinSensing(SkinElectronicsSettings):
-    """Material and quality of a skin.
-
-    Attributes:
-        stiffness: In Pa/m; by default 10 mm of 100 kPa foam.
-        damping: In Pa s/m.
-        friction: Coulomb's coefficient.
-        slip_speed: In m/s, where friction reaches 71 % of Coulomb's.
-        everything: Cast all rays, for comparison; same readings.
-    """
-
-    stiffness: float = number(1e7, "Pa/m", 1e4, 1e10)
-    damping: float = number(3e4, "Pa s/m", 0.0, 1e8)
-    friction: float = number(0.5, "1", 0.0, 2.0)
-    slip_speed: float = number(0.02, "m/s", 1e-4, 1.0)
-    everything: bool = switch(False)
+_EXACT = 1e-9  # of the load times the extent: how exactly the taxels have the moment
 
 
 class _Patch(NamedTuple):
@@ -55,68 +41,94 @@ class _Patch(NamedTuple):
     reach: float
 
 
-class SkinSensor:
-    """The skin of a machine or robot among obstacles.
+class FoamSkins:
+    """Skins of foam on links of a model, among obstacles.
 
     Args:
-        model: The world's; contacts between skinned links and obstacles are switched off.
-        skin: On links of the model.
-        settings: Its material and quality.
-        seed: Of noise, gain errors and dead taxels.
-        obstacles: Measured geom ids; None for all of `OBSTACLE_GROUP`.
+        model: The world's; contacts of skinned links with obstacles are switched off in it, and obstacles touch all
+            else that collides.
+        skin: On links of the model: of `Skins.body_skin`, or of patches of one's own.
+        foam: What it is made of.
+        obstacles: Names or ids of the geoms that press; None for all that collide and are not of the skinned robots.
+        everything: Whether all rays are cast, for comparison; same readings.
 
     Attributes:
-        force: True normal (N,) in N at the last `apply`.
+        body_skin: The skin, N taxels on L links.
+        force: True normal (N,) in N at the last `press`.
+        depth: How far (N,) each taxel yields in m.
         distance: True (N,) in m; inf out of range, negative where pressed in.
-        wrenches: True (L, 6) on `skin.links` about their origins, world frame.
+        wrenches: True (L, 6) on the links about their origins, world frame, by the obstacles on the robot.
         on_obstacles: True (6,) about each geom's middle, world frame, by name.
-        temperature: True (N,) in degC of a heat model, or None.
         cast: Rays cast, over all steps.
         skipped: Rays not cast.
 
     Raises:
-        RobotError: If a link is missing.
-        SceneError: If an obstacle is unsupported.
+        RobotError: If a link or obstacle is missing.
+        SceneError: If an obstacle is of a kind that rays do not meet.
+
+    Example:
+        >>> import mujoco
+        >>> from plantar.mujoco import Foam, FoamSkins, Skin, Skins
+        >>> model = mujoco.MjModel.from_xml_string('''<mujoco><worldbody><body name="arm"><joint/>
+        ...   <geom type="capsule" size=".04 .1" mass="1"/></body>
+        ...   <body mocap="true" pos="0.08 0 0"><geom name="ball" size=".05"/></body></worldbody></mujoco>''')
+        >>> skins = Skins([Skin(body="arm", around=(0, 0, 1)).bind(model)])
+        >>> foam = FoamSkins(model, skins.body_skin, Foam(stiffness=1e7), ["ball"])
+        >>> data = mujoco.MjData(model)
+        >>> mujoco.mj_step1(model, data)
+        >>> foam.press(data)
+        >>> mujoco.mj_step2(model, data)
+        >>> (reading,) = foam(data)
+        >>> bool(reading.force.sum() > 1.0), data.ncon
+        (True, 0)
     """
 
     def __init__(
         self,
         model: Any,
         skin: BodySkin,
-        settings: SkinSensing,
-        seed: int,
-        obstacles: Sequence[int] | None = None,
+        foam: Foam | None = None,
+        obstacles: Sequence[int | str] | None = None,
+        *,
+        everything: bool = False,
     ) -> None:
-        self.skin = skin
-        self.settings = settings
+        self.body_skin = instance(skin, BodySkin, "skin")
+        self.foam = Foam() if foam is None else instance(foam, Foam, "foam")
+        self._everything = everything
         self._bodies = [_body(model, link) for link in skin.links]
         self._patches = [_ready(model, skin, i, self._bodies) for i in range(len(skin.patches))]
-        geoms = np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist() if obstacles is None else list(obstacles)
+        geoms = _others(model, self._bodies) if obstacles is None else [_geom(model, name) for name in obstacles]
         self._obstacles = [Obstacle(model, g) for g in geoms]
         _separate(model, self._bodies, [o.geom for o in self._obstacles])
         self._broad = _BroadPhase(model, self._patches, geoms)
         self._touched = sorted({*self._bodies, *(o.body for o in self._obstacles)} - {0})
         self.force = np.zeros(len(skin))
+        self.depth = np.zeros(len(skin))
         self.distance = np.full(len(skin), np.inf)
         self.wrenches = np.zeros((len(skin.links), 6))
         self.on_obstacles = {o.name: np.zeros(6) for o in self._obstacles}
-        self.temperature: NDArray[np.float64] | None = None
         self.cast = 0
         self.skipped = 0
+        self._vectors = np.zeros((len(skin), 3))
+        self._of_patches = np.zeros((len(self._patches), 6))
         self._applied = np.zeros((model.nbody, 6))
+        self._data: Any = None
         self._time = -np.inf
         self._period = 0.0
         self._geoms = np.array(geoms, dtype=np.int64)
         self._before = (np.zeros((len(geoms), 3)), np.zeros((len(geoms), 9)))
         self._now = self._before
         self._dirty = True
-        self._electronics = SkinElectronics(skin, settings, seed)
 
-    def apply(self, data: Any) -> None:
+    def __len__(self) -> int:
+        return len(self._patches)
+
+    def press(self, data: Any) -> None:
         """Press obstacles and links apart, once a physics step after `mj_step1` or `mj_forward`.
 
         Sets their `data.xfrc_applied`; other pushes use `data.qfrc_applied`.
         """
+        self._data = data
         period = float(data.time) - self._time
         self._time = float(data.time)
         self._period = period if 0.0 < period < _LONGEST_STEP else 0.0
@@ -124,37 +136,66 @@ class SkinSensor:
         self._now = (data.geom_xpos[self._geoms], data.geom_xmat[self._geoms])
         if self._dirty:
             self._clear(data)
-        near = self._broad.everything if self.settings.everything else self._broad.near(data)
+        near = self._broad.everything if self._everything else self._broad.near(data)
         looked = 0
         for i, ks in near:
             looked += len(self._patches[i].areas)
-            self._feel(data, self._patches[i], ks)
+            self._feel(data, i, ks)
         self._dirty = bool(near)
         self.cast += looked
-        self.skipped += len(self.skin) - looked
+        self.skipped += len(self.body_skin) - looked
 
-    def read(self, data: Any) -> Reading:
-        """The reading of the last `apply`."""
-        return self._electronics.read(float(data.time), self.force, self.distance, self.temperature)
+    def __call__(self, data: Any) -> tuple[SkinReading, ...]:
+        """Each patch's reading of the last `press`, in its link's frame; InputError for data that were not pressed."""
+        self._check(data)
+        return tuple(self._reading(i) for i in range(len(self._patches)))
+
+    def whole(self, data: Any) -> Reading:
+        """One reading of all taxels, in the order of `body_skin`; InputError for data that were not pressed."""
+        self._check(data)
+        return Reading.taken_over(self._time, self.force.copy(), self.distance.copy())
 
     def patch_force(self, patch: str) -> float:
         """True normal force on a patch in N."""
-        return float(self.force[self.skin.slices[patch]].sum())
+        return float(self.force[self.body_skin.slices[patch]].sum())
 
     def add_applied(self, forces: NDArray[np.float64]) -> None:
         """Add to `forces` (bodies, 6) what it applies now, as MuJoCo's `xfrc_applied`."""
         forces += self._applied
 
+    def _check(self, data: Any) -> None:
+        if data is not self._data:
+            raise InputError("the foam was not pressed in these data; call press(data) after mj_step1, in each step")
+
+    def _reading(self, index: int) -> SkinReading:
+        taxels = self._patches[index].taxels
+        patch = self.body_skin.patches[index]
+        block = load_block(len(patch))
+        force, depth, vectors, wrench = load_parts(block)
+        force[:] = self.force[taxels]
+        depth[:] = self.depth[taxels]
+        vectors[:] = self._vectors[taxels]
+        wrench[:] = self._of_patches[index]
+        # Friction acts where the obstacle's face is, below the taxels' places.
+        off = np.cross(patch.positions, vectors).sum(axis=0) - wrench[3:]
+        size = float(np.abs(vectors).sum() * np.abs(patch.positions).max())
+        near = self.distance[taxels].copy() if patch.proximity_range else None
+        return reading_of_block(self._time, force, block, near, bool(np.abs(off).max() <= _EXACT * size), None)
+
     def _clear(self, data: Any) -> None:
         self.force[:] = 0.0
+        self.depth[:] = 0.0
         self.distance[:] = np.inf
         self.wrenches[:] = 0.0
+        self._vectors[:] = 0.0
+        self._of_patches[:] = 0.0
         for wrench in self.on_obstacles.values():
             wrench[:] = 0.0
         data.xfrc_applied[self._touched] = 0.0
         self._applied[self._touched] = 0.0
 
-    def _feel(self, data: Any, patch: _Patch, obstacles: list[int]) -> None:
+    def _feel(self, data: Any, number: int, obstacles: list[int]) -> None:
+        patch = self._patches[number]
         rotation = data.xmat[patch.body].reshape(3, 3)
         starts = patch.starts @ rotation.T + data.xpos[patch.body]
         ways = patch.ways @ rotation.T
@@ -166,36 +207,43 @@ class SkinSensor:
             pressed = np.flatnonzero(distance < 0.0)
             if len(pressed):
                 points = starts[pressed] + lengths[pressed, None] * ways[pressed]
-                self._press(data, patch, k, pressed, (points, -ways[pressed], -distance[pressed]))
+                self._press(data, number, k, pressed, (points, -ways[pressed], -distance[pressed]))
 
     def _press(
         self,
         data: Any,
-        patch: _Patch,
+        number: int,
         index: int,
         pressed: NDArray[np.int64],
         contact: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     ) -> None:
         # Normal and friction forces at points (m, 3) by inward normals (m, 3) and depths (m,).
         points, normals, depths = contact
+        patch = self._patches[number]
         obstacle = self._obstacles[index]
         now, before = (tuple(part[index] for part in where) for where in (self._now, self._before))
-        s = self.settings
+        foam = self.foam
         body = patch.body
         spin = data.cvel[body, :3]
         drift = data.cvel[body, 3:]
         middle = data.subtree_com[patch.root]
         sliding = obstacle.velocity(points, now, before, self._period) - drift - np.cross(spin, points - middle)
         rates = np.einsum("ij,ij->i", sliding, normals)
-        forces = np.maximum(patch.areas[pressed] * (s.stiffness * depths + s.damping * rates), 0.0)
+        forces = np.maximum(patch.areas[pressed] * (foam.stiffness * depths + foam.damping * rates), 0.0)
         sliding -= rates[:, None] * normals
-        speeds = np.sqrt(np.einsum("ij,ij->i", sliding, sliding) + s.slip_speed**2)
-        pushes = forces[:, None] * (normals + (s.friction / speeds)[:, None] * sliding)
-        self.force[patch.taxels.start + pressed] += forces
+        speeds = np.sqrt(np.einsum("ij,ij->i", sliding, sliding) + foam.slip_speed**2)
+        pushes = forces[:, None] * (normals + (foam.friction / speeds)[:, None] * sliding)
+        taxels = patch.taxels.start + pressed
+        self.force[taxels] += forces
+        self.depth[taxels] = np.maximum(self.depth[taxels], depths)
         total = pushes.sum(0)
         about_origin = np.cross(points, pushes).sum(0)
+        moment = about_origin - np.cross(data.xpos[body], total)
         self.wrenches[patch.link, :3] += total
-        self.wrenches[patch.link, 3:] += about_origin - np.cross(data.xpos[body], total)
+        self.wrenches[patch.link, 3:] += moment
+        rotation = data.xmat[body].reshape(3, 3)
+        self._vectors[taxels] += pushes @ rotation
+        self._of_patches[number] += np.concatenate([total @ rotation, moment @ rotation])
         for target, sign in ((body, 1.0), (obstacle.body, -1.0)):
             for forces in (data.xfrc_applied, self._applied):
                 forces[target, :3] += sign * total
@@ -271,6 +319,17 @@ def _body(model: Any, link: str) -> int:
     if body < 0:
         raise RobotError(f"the world has no link '{link}', which carries skin")
     return body
+
+
+def _geom(model: Any, name: int | str) -> int:
+    return named_id(model, "geom", name) if isinstance(name, str) else int(name)
+
+
+def _others(model: Any, bodies: Sequence[int]) -> list[int]:
+    """Geoms that collide and are of no robot with skin."""
+    roots = np.unique(model.body_rootid[list(bodies)])
+    able = (model.geom_contype | model.geom_conaffinity) != 0
+    return np.flatnonzero(able & ~np.isin(model.body_rootid[model.geom_bodyid], roots)).tolist()
 
 
 def _separate(model: Any, skinned: list[int], obstacles: list[int]) -> None:

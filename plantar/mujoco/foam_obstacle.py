@@ -10,7 +10,7 @@ from plantar.errors import SceneError
 from plantar.kernels.sensors.ground_rays import cast_rays
 
 _KINDS = {name: int(getattr(mujoco.mjtGeom, f"mjGEOM_{name.upper()}")) for name in (
-    *("plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"),
+    *("plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"),
 )}  # fmt: skip
 _PIECES = (_KINDS["cylinder"], _KINDS["sphere"], _KINDS["sphere"])
 
@@ -29,7 +29,7 @@ class Obstacle:
                 f"obstacle '{self.name}' is of a kind that skin cannot measure; allowed: {', '.join(_KINDS)}"
             )
         self._model = model
-        self._mesh = kind == _KINDS["mesh"]
+        self._ray = {_KINDS["mesh"]: mujoco.mj_rayMesh, _KINDS["hfield"]: mujoco.mj_rayHfield}.get(kind)
         self._half = float(size[1]) if kind == _KINDS["capsule"] else 0.0
         pieces = _PIECES if kind == _KINDS["capsule"] else (kind,)
         self._kinds = np.array(pieces, dtype=np.int32)
@@ -64,9 +64,9 @@ class Obstacle:
         matter.
         """
         found = np.empty(len(starts))
-        if self._mesh:
+        if self._ray is not None:
             for i, (start, way) in enumerate(zip(starts, ways, strict=True)):
-                found[i] = mujoco.mj_rayMesh(self._model, data, self.geom, start, way)
+                found[i] = self._ray(self._model, data, self.geom, start, way)
             return found
         positions = data.geom_xpos[self.geom, None]
         frames = data.geom_xmat[self.geom, None]
