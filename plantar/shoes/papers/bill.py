@@ -9,6 +9,17 @@ from plantar.common.table_writer import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.checks.printability import BOARD_UP, Weights
+from plantar.shoes.papers.orders import (
+    Order,
+    board_order,
+    foam_order,
+    nut_order,
+    print_order,
+    screw_length,
+    screw_order,
+    silicone_order,
+    strap_order,
+)
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import tail_lines
 from plantar.shoes.plan.shoe_plan import ShoePlan
@@ -45,7 +56,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights, wiring: Wiring
         Part(
             f"{build.kind}, {side}", 1, p.material, size, weights.printed,
             f"printed from {build.kind}_{side}.stl, .3mf or .step",
-            f"print of {build.kind}_{side}.step in {p.material}, {p.made_by.name}",
+            *print_order(f"{build.kind}_{side}.step", p),
         )
     ]  # fmt: skip
     if p.pad_thickness > 0.0:
@@ -54,7 +65,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights, wiring: Wiring
                 f"pad, {side}", 1, p.pad_material,
                 f"{outline} x {p.pad_thickness + p.pad_rim_height:g} mm", weights.pad,
                 f"cut or cast to pad_{side}.stl, {_window(plan)}; glued to the taxels, replaced when worn",
-                _pad_order(side, p),
+                *_pad_order(side, p),
             )
         )  # fmt: skip
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())
@@ -81,8 +92,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights, wiring: Wiring
     if plan.heel.board:
         size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
         note = "slides into the rails behind the heel"
-        order = f"prototyping board, FR4, {p.board_thickness:g} mm thick, cut to size"
-        parts.append(Part("connection board", 1, "FR4", size, weights.board, note, order))
+        parts.append(Part("connection board", 1, "FR4", size, weights.board, note, *board_order(p)))
     if wiring is not None:
         parts += [
             Part(b.what, b.quantity, b.references, "-", None, "read-out", f"{b.maker} {b.part}", b.address)
@@ -101,12 +111,10 @@ def _ordered(cell: Cell) -> tuple[str, str]:
     return f"{cell.maker} {cell.part}".strip(), cell.data_sheet
 
 
-def _pad_order(side: str, p: ShoeParameters) -> str:
+def _pad_order(side: str, p: ShoeParameters) -> Order:
     if p.pad_kind == "plate":
-        return f"print of pad_{side}.stl in {p.material}"
-    if p.pad_foam > 0.0:
-        return f"{p.pad_material}, sheets of {p.pad_thickness:g} mm and {p.pad_rim_height:g} mm"
-    return f"two-part silicone of {p.pad_hardness:g} Shore A, and mould_{side}.stl printed"
+        return print_order(f"pad_{side}.stl", p)
+    return foam_order(p) if p.pad_foam > 0.0 else silicone_order(side, p)
 
 
 def _window(plan: ShoePlan) -> str:
@@ -128,16 +136,16 @@ def _holding(build: ShoeBuild, width: float) -> list[Part]:
         over = 2.5 * (width + 2.0 * min(build.foot.height, 80.0))
         size = f"{retention.width:g} x {p.strap_thickness:g} mm, {10 * math.ceil(over / 10):g} mm long"
         note = "over the instep, through the lugs"
-        order = f"hook-and-loop strap, double-sided, {retention.width:g} mm wide, by the metre"
-        return [Part("strap", retention.straps, "hook and loop", size, None, note, order)]
+        return [Part("strap", retention.straps, "hook and loop", size, None, note, *strap_order(retention.width))]
     if retention.kind == "screws":
-        size = f"M{retention.width:g} x {p.rim_thickness + 2.0 * retention.width:.0f} mm, soft tip"
+        length = screw_length(p.rim_thickness + 2.0 * retention.width)
         count = len(retention.places)
         note = "through the wall, clamps the foot's sides"
         thread = f"M{retention.width:g}"
+        screw = screw_order(retention.width, length)
         return [
-            Part("set screw", count, "steel", size, None, note, f"DIN 913 {size}"),
-            Part("nut", count, "steel", thread, None, "in the slot of the boss", f"ISO 4032 {thread}"),
+            Part("set screw", count, "steel", f"{thread} x {length:g} mm", None, note, *screw),
+            Part("nut", count, "steel", thread, None, "in the slot of the boss", *nut_order(retention.width)),
         ]
     return []
 

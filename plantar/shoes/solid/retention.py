@@ -28,6 +28,7 @@ _HEAVY = 1.4e-6  # kg/mm^3: worn mass over contact face and thickness, wall and 
 _SAMPLES = 1.5  # mm between points on the foot
 _ROUND = 8.0  # mm that a wall may bend away along a lug
 _SCREW_REACH = 1.2  # of its diameter: how far a screw that fills its nut comes out of the wall
+_THREADS = (2.5, 3.0, 4.0, 5.0, 6.0)  # mm: diameters of set screws that are made (ISO 4026)
 _PLAY = 0.2  # mm between a clip's hook and the foot's edge
 
 
@@ -101,6 +102,10 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
 def _screws(foot: Foot, plan: ShoePlan, p: ShoeParameters, note: str) -> Retention:
     places = _screw_places(plan, p)
     wide = p.screw_diameter
+    if wide not in _THREADS:
+        raise FootError(
+            f"screw_diameter is {wide:g} mm, which no set screw has; allowed: {', '.join(f'{t:g}' for t in _THREADS)}"
+        )
     middle = plan.foot.centroid.y
     if foot.triangles is not None:
         x, y, above = (surface_points(foot.triangles, _SAMPLES) - np.array([0.0, 0.0, 0.5 * p.rim_height])).T

@@ -233,10 +233,10 @@ def _matrix(shoe: Shoe, tail: tuple[str, ...]) -> Wiring:
         Bought("J1", 1, *_ADAPTER),
         Bought("X1", 1, *_CONNECTOR),
         Bought(
-            "FB1", 1, "any maker of flexible boards",
+            "FB1", 1, "OurPCB, or any maker of flexible boards to IPC-2223:",
             f"gerbers_{shoe.side}.zip: 2 layers, polyimide, 0.2 mm with stiffener of 0.3 mm in all at the tail's end, "
             "lines and gaps 0.15 mm, holes 0.2 mm, ENIG",
-            "flexible board", "https://www.ipc.org/TOC/IPC-2223E.pdf",
+            "flexible board", "https://www.ourpcb.com/flexible-pcb-capability",
         ),
         Bought("-", 1, *_CABLE),
     )  # fmt: skip

@@ -18,8 +18,8 @@ from ...html_text import addresses_of
 
 def test_the_page_is_whole_and_needs_no_network(exported):
     text = (exported[1] / "assembly.html").read_text()
-    addresses = addresses_of(text)
-    assert all(a.startswith(("#", "data:")) for a in addresses)
+    shops = set(re.findall(r'<a href="(https://[^"]+)">', text))  # followed where a reader asks, never loaded
+    assert all(a.startswith(("#", "data:")) for a in addresses_of(text) if a not in shops)
     assert "url(" not in text
 
 

@@ -2,12 +2,15 @@
 
 import csv
 import io
+import re
 
 import pytest
 
 from plantar.errors import FootError
 from plantar.shoes import build_shoe, foot_from_dimensions
 from plantar.shoes.cells.cell import Cell, read_cell
+from plantar.shoes.checks.printability import Weights
+from plantar.shoes.papers.bill import bill_of_parts
 from plantar.shoes.wiring.lists import harness_text, nets_text
 from plantar.shoes.wiring.nets import Pin, lead_colours, wiring_of
 
@@ -75,6 +78,19 @@ def test_every_line_of_what_is_bought_can_be_ordered(cell, wired_builds):
     parts = {pin.part for pins in wiring.nets.values() for pin in pins if pin.part[0] in "UJ"}
     ordered = sum(line.quantity for line in wiring.bought if line.references[0] in "UJ")
     assert ordered == len(parts)
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_every_line_of_a_bill_states_what_to_order_and_where(cell, wired_builds):
+    build = wired_builds[cell]
+    for shoe in build.shoes:
+        wiring = wiring_of(shoe, build.parameters)
+        lines = bill_of_parts(shoe, build, Weights(0.0, 0.0, 0.0, 0.0), wiring)
+        assert len(lines) > len(wiring.bought)
+        for line in lines:
+            assert line.order, line
+            assert re.match(r"https://[\w.-]+\.\w+/", line.address), line
+            assert line.quantity > 0
 
 
 def test_cells_of_a_laboratory_have_no_wiring_and_too_many_are_refused(small_foot):
