@@ -123,6 +123,10 @@ class WalkSchedule:
         """The phase after one of `phases`; the last for itself."""
         return self.phases[min(self.phases.index(phase) + 1, len(self.phases) - 1)]
 
+    def before(self, phase: Phase) -> Phase:
+        """The phase before one of `phases`; the first for itself."""
+        return self.phases[max(self.phases.index(phase) - 1, 0)]
+
     def delayed(self, phase: Phase, by: float, wait: float | None = None) -> WalkSchedule:
         """The schedule with a phase's end, and all after, moved.
 

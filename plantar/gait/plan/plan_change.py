@@ -20,7 +20,9 @@ class PlanChange:
         shift: Later footsteps' move in m.
         vrp_shift: Their VRPs' move in m; None for the same.
         following: New later footsteps; empty ends the walk.
-        longer: Delay in s of the current single support's end (negative: sooner).
+        longer: Delay in s of the current support's end (negative: sooner).
+        again: Whether the step that has just landed is taken once more: `longer` is of the single support before this
+            double support.
         wait: Time in s before that end by which the foot is down; None for unchanged.
         resets: Whether the reference jumps to the changed plan, nearer to the body, without a bridge.
         because: Reason for later footsteps, if different.
@@ -36,6 +38,7 @@ class PlanChange:
     longer: float | None = None
     wait: float | None = None
     resets: bool = False
+    again: bool = False
     because: str = ""
 
 

@@ -255,7 +255,8 @@ class WalkPlan:
                 moved = replace(foothold, x=foothold.x + dx, y=foothold.y + dy)
                 steps[i] = PlannedStep(moved, steps[i].vrp + later)
         if change.longer is not None:
-            schedule = schedule.delayed(schedule.at(time), change.longer, change.wait)
+            now = schedule.at(time)
+            schedule = schedule.delayed(schedule.before(now) if change.again else now, change.longer, change.wait)
         return replace(view, steps=tuple(steps), schedule=schedule)
 
     def _bridge(

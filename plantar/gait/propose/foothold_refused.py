@@ -4,6 +4,15 @@ walking --(ground higher than expected)--> doubting: the single support is exten
 --(touchdown)--> probing: the foot presses, the rule decides probing --(feasible)--> walking on over it probing
 --(refused)--> the foot lifts again and goes around: walking probing --(no way around, or too many tries)--> the foot
 goes back next to the other one, and the walk ends
+
+One leg holds only as long as the measured DCM xi can be captured: for a time T the best ZMP p of the standing sole
+leaves it
+
+    |p + e^(w T) (xi - p) - xi_e| <= (1 - e^(-w t_ds)) b
+
+off its goal xi_e, which is what a ZMP at the sole's edge, b from the VRP, takes up in the double support t_ds that
+follows (T 4.9-4.14). Otherwise the foot lands when it was going to and is judged in double support, as weight comes
+onto it; what is refused then is stood on, unless the DCM is still over the other foot for a step around.
 """
 
 import math
@@ -16,13 +25,17 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import Side, other_side
 from plantar.gait.plan.footsteps import Footstep
-from plantar.gait.plan.phases import Phase
+from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.gait.plan.plan_change import PlanChange, Point
 from plantar.gait.propose.feasibility import FeasibilityRules, Foothold, FootholdProbe, room_ahead, way_around
 from plantar.gait.propose.proposer import Priority, Tick
+from plantar.geometry.polygon import signed_margin
 from plantar.layouts.layout import SoleLayout
 
 _LASTING = 4  # chosen: control ticks for which ground has to look higher than expected; 20 ms
+_HALVINGS = (
+    6  # chosen: of an extension that is too long: a sixty-fourth of 0.7 s is two ticks; a time alone depends on it
+)
 
 
 class _State(Enum):
@@ -38,7 +51,7 @@ class CheckedStep:
     """A checked foothold.
 
     `step`: its index; `foothold`: what was found; `shift`: its move (2,) along the planned foot's axes in m; None if it
-    stayed or had no way.
+    stayed, had no way, or no leg could hold the body for it.
     """
 
     step: int
@@ -75,6 +88,7 @@ class StepGuard:
         self._since = 0.0
         self._surprised = 0
         self._reading_time = -1.0
+        self._alone: NDArray[np.float64] | None = None  # region (k, 2) in m of the ZMP under the standing foot
 
     def summary(self) -> dict[str, object]:
         """Checks, for a run's summary."""
@@ -109,29 +123,74 @@ class StepGuard:
         side = tick.phase.swing
         if side is None or self.stopped:
             self.press = None
-            return None
+            judges = phase.kind == PhaseKind.DOUBLE_SUPPORT and phase.step == self._step + 1 and not self.stopped
+            return self._judge_on_both(tick) if judges else None
         if phase.step != self._step:
             self._begin(phase, side, tick)
+        if tick.pendulum is not None and not tick.feet.landed:
+            self._alone = tick.pendulum.zmp_region
         # For some ticks on end, so that one noisy height does not hold a walk up.
         self._surprised = self._surprised + 1 if tick.feet.surprise > self.rules.surprise else 0
         if self._state is _State.WALKING and self._surprised >= _LASTING:
             self._state = _State.DOUBTING
-            return _waiting(phase, self.rules.hold)
+            return self._waiting(phase, self.rules.hold, tick)
         if self._state is _State.DOUBTING and tick.feet.landed:
-            return self._touch(phase, side, tick)
+            self.press = self._force
+            missing = self._touch(side, tick) - phase.end
+            return self._waiting(phase, missing, tick) if self._probes and missing > 0.0 else None
+        return self._probed(phase, side, tick)
+
+    def _judge_on_both(self, tick: Tick) -> PlanChange | None:
+        """A doubted foothold on which the plan puts weight by now."""
+        if tick.feet.side is None or self._state not in (_State.DOUBTING, _State.PROBING):
+            return None
+        if self._state is _State.DOUBTING:
+            if tick.feet.landed:
+                self._touch(tick.feet.side, tick)
+            return None
+        support = next(p for p in tick.plan.schedule.phases if p.step == self._step and p.swing is not None)
+        return self._probed(support, tick.feet.side, tick)
+
+    def _probed(self, support: Phase, side: Side, tick: Tick) -> PlanChange | None:
+        """What follows from a probe that has lasted long enough. `support`: single support of its step."""
         if self._state is not _State.PROBING or self._probe is None:
             return None
         self._read(side, tick)
         if tick.time < self._since + self._settling + self._reading:
             return None
         self.press = None
-        return self._judge(phase, side, tick)
+        return self._judge(support, side, tick)
+
+    def _waiting(self, phase: Phase, by: float, tick: Tick) -> PlanChange | None:
+        """A single support that is longer by a time in s, or as much of it as can be captured."""
+        longest = by
+        if not self._captures(phase.end + by - tick.time, tick):
+            longest = 0.0
+            for halving in range(1, _HALVINGS + 1):
+                tried = longest + by / 2**halving
+                if self._captures(phase.end + tried - tick.time, tick):
+                    longest = tried
+        if longest == 0.0:
+            return None
+        return PlanChange("ground higher than expected", phase.step, longer=longest, wait=phase.wait + longest)
+
+    def _captures(self, left: float, tick: Tick) -> bool:
+        """Whether the measured DCM can be captured after `left` seconds on the standing foot alone."""
+        pendulum = tick.pendulum
+        alone = self._alone
+        if pendulum is None or alone is None or not len(alone):
+            return True
+        growth, wanted, best = pendulum.changed(zmp_region=alone).beyond_zmp(left)
+        taken = -math.expm1(-pendulum.omega * tick.plan.schedule.timing.double_support)
+        room = max(0.0, signed_margin(alone, tick.plan.stance_vrp(self._step)))
+        return growth * math.dist(wanted, best) <= taken * room
 
     def _begin(self, phase: Phase, side: Side, tick: Tick) -> None:
         """A step begins; its start is where the foot can return."""
         self._step = phase.step
         self._tries = 0
         self._state = _State.WALKING
+        self._alone = None
         origin = tick.place(side)
         stance = tick.place(other_side(side))
         ahead = origin.rotation_sole_to_world[:2, 0]
@@ -139,20 +198,18 @@ class StepGuard:
         dx, dy = (ahead * float(way @ ahead)).tolist()
         self._refuge = replace(origin, x=origin.x + dx, y=origin.y + dy)
 
-    def _touch(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
-        """Touchdown: the foot presses, and the stance foot carries long enough."""
+    def _touch(self, side: Side, tick: Tick) -> float:
+        """Touchdown: the foot presses. Returns the time in s until which the stance foot should carry."""
         rules = self.rules
         self._state = _State.PROBING
         self._began = tick.time
         self._since = math.inf
         self._reading_time = -1.0
-        self.press = self._force
         self._probe = FootholdProbe(self._layouts[side], rules)
         if tick.feet.distance is not None:
             self._probe.update_view(tick.feet.distance)
         # The DCM has to be back over the stance foot, and to stay there, until the rule has decided.
-        missing = tick.time + rules.probe_limit + self._settling + self._reading + rules.reserve - phase.end
-        return _waiting(phase, missing) if self._probes and missing > 0.0 else None
+        return tick.time + rules.probe_limit + self._settling + self._reading + rules.reserve
 
     def _read(self, side: Side, tick: Tick) -> None:
         assert self._probe is not None
@@ -173,7 +230,7 @@ class StepGuard:
         assert self._probe is not None
         found = self._probe.verdict()
         step = tick.plan.foothold(phase.step)
-        if found.feasible:
+        if found.feasible or not self._captures(self.rules.swing_time, tick):
             self._state = _State.TRUSTING
             self.checked.append(CheckedStep(phase.step, found, None))
             return None
@@ -195,6 +252,7 @@ class StepGuard:
             shift=later,
             longer=wait[0],
             wait=wait[1],
+            again=tick.phase.swing is None,
             because="foothold before it refused",
         )
 
@@ -203,7 +261,13 @@ class StepGuard:
         self._state = _State.STOPPED
         longer, wait = self._wait(self.rules.return_time, phase, tick)
         return PlanChange(
-            "no way around, back", phase.step, foothold=self._refuge, following=(), longer=longer, wait=wait
+            "no way around, back",
+            phase.step,
+            foothold=self._refuge,
+            following=(),
+            longer=longer,
+            wait=wait,
+            again=tick.phase.swing is None,
         )
 
     def _shift_of_later(self, step: Footstep, shift: NDArray[np.float64], found: Foothold, tick: Tick) -> Point:
@@ -214,7 +278,7 @@ class StepGuard:
         into_sole = step.rotation_sole_to_world[:, :2].T
         plan = tick.plan
         room = 0.0
-        for later in range(tick.phase.step + 1, min(tick.phase.step + 3, plan.count)):
+        for later in range(self._step + 1, min(self._step + 3, plan.count)):
             foothold = plan.foothold(later)
             place = into_sole @ (foothold.position - step.position) + shift
             outline = self._layouts[foothold.side].outline
@@ -227,7 +291,3 @@ class StepGuard:
         """Single support's extension in s for a swing, and the time that the foot is down by then."""
         missing = tick.time + duration - phase.end
         return max(0.0, missing), max(0.0, -missing)
-
-
-def _waiting(phase: Phase, by: float) -> PlanChange:
-    return PlanChange("ground higher than expected", phase.step, longer=by, wait=phase.wait + by)

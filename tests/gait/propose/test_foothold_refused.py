@@ -9,11 +9,12 @@ import pytest
 from plantar import Reading, hex_layout
 from plantar.common.sides import SIDES
 from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.feasibility import FeasibilityRules
 from plantar.gait.propose.foothold_refused import StepGuard
-from plantar.gait.propose.proposer import Tick
+from plantar.gait.propose.proposer import Pendulum, Tick
 
 PERIOD = 0.005
 LAYOUT = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
@@ -151,3 +152,97 @@ def test_noise_of_a_single_reading_is_not_support(plan_of, tick_at):
         if guard.checked:
             break
     assert guard.checked[0].foothold.polygon_in_sole[:, 0].min() > 0.03
+
+
+def held(plan: WalkPlan, guard: StepGuard, aside: float, carries: np.ndarray, tick_at, until: float = 2.0):
+    """Changes of a step that meets something high at 0.8 s, each applied, with the DCM `aside` m beyond the middle of
+    the standing foot towards the other one; time in s is from lift-off."""
+    step = 2
+    side = plan.view.foothold(step).side
+    start = next(p.start for p in plan.schedule.phases if p.step == step and p.swing is not None)
+    middle = plan.view.stance_vrp(step)
+    region = middle + np.array([[-0.09, -0.05], [0.09, -0.05], [0.09, 0.05], [-0.09, 0.05]])
+    way = plan.view.vrp(step) - middle
+    dcm = middle + np.array([0.0, np.copysign(aside, way[1])])
+    force = np.where(carries, 130.0 / carries.sum(), 0.0)
+    changes = []
+    for k in range(round(until / PERIOD)):
+        time = start + k * PERIOD
+        landed = k * PERIOD >= 0.8
+        tick = tick_at(plan, time)
+        if guard.stopped or (tick.phase.step > step and tick.phase.swing is not None):
+            break
+        reference = plan.at(time)
+        pendulum = Pendulum(3.5, dcm, reference, plan.dcm_after(tick.phase), region)
+        feet = FeetView(
+            tick.feet.footholds,
+            side,
+            landed,
+            surprise=0.03 if k * PERIOD > 0.75 else 0.0,
+            distance=np.full(len(LAYOUT), 0.03),
+        )
+        readings = {s: Reading(time=time, force=force if landed and s == side else 0.0 * force) for s in SIDES}
+        loads = {s: 130.0 if landed and s == side else 700.0 for s in SIDES}
+        change = guard.propose(tick.changed(feet=feet, readings=readings, loads=loads, pendulum=pendulum))
+        if change is not None:
+            plan.apply(change, time, region)
+            changes.append((time, change))
+            if change.foothold is not None:
+                break
+    return changes
+
+
+WHOLE = np.ones(len(LAYOUT), dtype=bool)
+
+
+def test_a_leg_holds_while_the_dcm_is_over_its_sole(plan_of, tick_at):
+    guard, plan = guarding(), plan_of()
+    changes = held(plan, guard, 0.02, WHOLE, tick_at)
+    assert changes[0][1].longer == pytest.approx(RULES.hold)
+    assert [c.foothold.feasible for c in guard.checked] == [True]
+
+
+@pytest.mark.parametrize("aside", [0.06, 0.08, 0.12])
+def test_a_leg_holds_no_longer_than_its_sole_and_the_next_double_support_capture(aside, plan_of, tick_at):
+    guard, plan = guarding(), plan_of()
+    region_edge, omega = 0.05, 3.5
+    end = next(p.end for p in plan.schedule.phases if p.step == 2 and p.swing is not None)
+    goal = plan.at(end).dcm
+    middle = plan.view.stance_vrp(2)
+    toward = np.sign(plan.view.vrp(2)[1] - middle[1])
+    changes = held(plan, guard, aside, WHOLE, tick_at)
+    allowed = -np.expm1(-omega * plan.schedule.timing.double_support) * region_edge
+    late = end
+    for time, change in changes:
+        late += change.longer
+        # xi(T) = p + e^(w T) (xi - p), from the ZMP at the sole's inner edge.
+        comes_to = region_edge + np.exp(omega * (late - time)) * (aside - region_edge)
+        assert comes_to - toward * (goal[1] - middle[1]) <= allowed + 1e-9
+    assert late - end < RULES.hold
+    # What the leg could not wait for is judged with both feet down, before the next step begins.
+    assert [c.foothold.feasible for c in guard.checked] == [True]
+
+
+@pytest.mark.parametrize(("aside", "again"), [(0.0, True), (0.12, False)])
+def test_a_foothold_refused_with_both_feet_down_is_left_only_by_a_body_that_can_be_held(aside, again, plan_of, tick_at):
+    guard, plan = guarding(replace(RULES, hold=0.01)), plan_of()
+    held(plan, guard, aside, FRONT, tick_at)
+    assert [c.foothold.feasible for c in guard.checked] == [False]
+    assert (guard.checked[0].shift is not None) == again
+    left = [a.change for a in plan.record if a.change.foothold is not None]
+    assert bool(left) == again
+
+
+def test_a_step_that_has_landed_is_taken_once_more(plan_of):
+    plan = plan_of()
+    swing, both = (
+        p
+        for p in plan.schedule.phases
+        if (p.step, p.kind) in ((2, PhaseKind.SINGLE_SUPPORT), (3, PhaseKind.DOUBLE_SUPPORT))
+    )
+    time = both.start + 0.1
+    plan.apply(PlanChange("foothold refused", 2, longer=1.5, wait=0.0, again=True), time, np.empty((0, 2)))
+    now = plan.schedule.at(time)
+    assert (now.step, now.kind) == (2, PhaseKind.SINGLE_SUPPORT)
+    assert now.end == pytest.approx(swing.end + 1.5)
+    assert plan.schedule.following(now).start == now.end
