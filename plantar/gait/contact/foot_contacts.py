@@ -26,7 +26,7 @@ from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 
 # chosen: steps after which a foothold that carried a part of the sole is no evidence of the ground ahead; two steps of
 # each foot
-_FORGETS = 4
+REMEMBERED = 4
 # chosen: rad from which a sole on a slope moves its ankle by more than encoders err; ten times the largest error of an
 # encoder's zero
 _LEANS = 0.05
@@ -161,7 +161,7 @@ class FootContacts:
         self.rise = 0.0
         self.mass_ratio = 1.0
         self._foreseen = -1
-        self._part = -_FORGETS - 1
+        self._part = -REMEMBERED - 1
         self._region_of: tuple[object, ...] = ()
         self._region_at: list[object] = []
         self._region = np.empty((0, 2))
@@ -176,7 +176,7 @@ class FootContacts:
 
     def firm(self, step: int) -> bool:
         """Whether the last footholds before a step were found, and seen ahead, whole."""
-        return step > self._part + _FORGETS
+        return step > self._part + REMEMBERED
 
     def lift_off(self, side: Side, step: int) -> None:
         """Clear the foothold of a `side`'s swinging foot in a `step`."""

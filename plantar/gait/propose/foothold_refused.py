@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import Side, other_side
+from plantar.gait.contact.foot_contacts import REMEMBERED
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.gait.plan.plan_change import PlanChange, Point
@@ -88,6 +89,7 @@ class StepGuard:
         self._since = 0.0
         self._surprised = 0
         self._reading_time = -1.0
+        self._refused = -math.inf
         self._alone: NDArray[np.float64] | None = None  # region (k, 2) in m of the ZMP under the standing foot
 
     def summary(self) -> dict[str, object]:
@@ -113,6 +115,10 @@ class StepGuard:
     def holds(self) -> bool:
         """Whether a leg carries alone for longer than a step, by what the other foot met."""
         return self._tries > 0 or self._state in (_State.DOUBTING, _State.PROBING)
+
+    def firm(self, step: int) -> bool:
+        """Whether no foothold was refused in a step or shortly before, so that feet can go anywhere."""
+        return step > self._refused + REMEMBERED
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """A longer single support for a doubted foothold, another place for a refused one.
@@ -230,6 +236,8 @@ class StepGuard:
         assert self._probe is not None
         found = self._probe.verdict()
         step = tick.plan.foothold(phase.step)
+        if not found.feasible:
+            self._refused = phase.step
         if found.feasible or not self._captures(self.rules.swing_time, tick):
             self._state = _State.TRUSTING
             self.checked.append(CheckedStep(phase.step, found, None))

@@ -209,7 +209,7 @@ class Footing:
             found=found,
             seen=seen,
             pendulum=pendulum,
-            firm=self.contacts.firm(phase.step),
+            firm=self.contacts.firm(phase.step) and (self.guard is None or self.guard.firm(phase.step)),
         )
         return tick, region
 

@@ -8,6 +8,7 @@ import pytest
 
 from plantar import Reading, hex_layout
 from plantar.common.sides import SIDES
+from plantar.gait.contact.foot_contacts import REMEMBERED
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
@@ -231,6 +232,13 @@ def test_a_foothold_refused_with_both_feet_down_is_left_only_by_a_body_that_can_
     assert (guard.checked[0].shift is not None) == again
     left = [a.change for a in plan.record if a.change.foothold is not None]
     assert bool(left) == again
+
+
+def test_after_a_refused_foothold_no_step_may_go_anywhere_for_a_while(plan_of, tick_at):
+    guard, plan = guarding(), plan_of(12)
+    assert guard.firm(2)
+    walked(guard, plan, FRONT, tick_at)
+    assert [guard.firm(step) for step in range(2, 9)] == [step > 2 + REMEMBERED for step in range(2, 9)]
 
 
 def test_a_step_that_has_landed_is_taken_once_more(plan_of):
