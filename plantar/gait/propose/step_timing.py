@@ -4,8 +4,9 @@ A wanted DCM xi_e takes the ZMP p(T) = xi + (xi - xi_e) / (e^(w T) - 1) for the 
 the DCM is off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14). A foot lifts later, too: with both feet down a
 DCM between them comes back, while a swing of the foot that it lies over leaves it no ground.
 
-A DCM that runs away is caught by the foot that swings, as soon as that gets to its place: from rest to rest by
-minimum jerk in sqrt(5.774 way / acceleration).
+A DCM that runs away towards the foot that swings is caught by it, as soon as that gets to its place: from rest to rest
+by minimum jerk in sqrt(5.774 way / acceleration). One that runs the other way has no ground there either: the foot is
+not hurried for it.
 """
 
 import math
@@ -87,8 +88,9 @@ class StepTiming:
         sooner = 0.0
         if tick.phase.swing is not None:
             later = (1.0 + rules.longest) * usual - begun - left
-            way = math.hypot(*tick.feet.ahead.tolist())
-            sooner = left - max(rules.least_left, math.sqrt(PEAK * way / rules.acceleration))
+            if _runs_to_foot(tick, left):
+                way = math.hypot(*tick.feet.ahead.tolist())
+                sooner = left - max(rules.least_left, math.sqrt(PEAK * way / rules.acceleration))
         best = 0.0
         least = missed(left)
         for sign, most in ((1.0, later), (-1.0, sooner)):
@@ -102,6 +104,16 @@ class StepTiming:
                     best = sign * k * self._period
                     least = cost
         return best
+
+
+def _runs_to_foot(tick: Tick, left: float) -> bool:
+    """Whether the DCM misses its goal, `left` seconds from now, towards the place of the swinging foot."""
+    assert tick.pendulum is not None
+    plan = tick.plan
+    step = tick.phase.step
+    x, y = (plan.vrp(step) - plan.stance_vrp(step)).tolist()
+    _, wanted, best = tick.pendulum.beyond_zmp(left)
+    return bool(x * (wanted[0] - best[0]) + y * (wanted[1] - best[1]) > 0.0)
 
 
 def _misses(tick: Tick, pendulum: Pendulum) -> Callable[[float], float]:

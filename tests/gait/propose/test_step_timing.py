@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+import shapely.ops
 
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
@@ -74,6 +75,17 @@ def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed):
     assert left + hurried.longer == pytest.approx(math.sqrt(5.774 * 0.1 / RULES.acceleration), abs=PERIOD)
 
 
+@pytest.mark.parametrize("off", [0.02, 0.1])
+def test_a_foot_is_not_hurried_for_a_dcm_that_runs_the_other_way(off, timed):
+    def beyond(plan: WalkPlan) -> np.ndarray:
+        step = plan.schedule.at(NOW).step
+        way = plan.view.vrp(step) - plan.view.stance_vrp(step)
+        return plan.view.stance_vrp(step) - off * way / np.hypot(*way)
+
+    change = proposed(timed(NOW, beyond)[1], price=0.0)
+    assert change is None or change.longer > 0.0
+
+
 def test_what_the_zmp_can_do_is_left_to_it(timed):
     for late in (0.0, 0.04, -0.04):
         assert proposed(timed(NOW, late_by(late), WIDE)[1]) is None
@@ -136,10 +148,16 @@ def test_a_change_is_the_best_that_there_is_and_worth_its_price(timed, seed):
     longest = (1.0 + RULES.longest) * 0.9 - begun
     least = RULES.least_left  # the foot is at its place already
     later, sooner = np.arange(left, longest + 1e-9, PERIOD), np.arange(left, least - 1e-9, -PERIOD)
-    allowed = later.tolist() + sooner.tolist()
+    # By GEOS, again: where the DCM would miss its goal to, of the way from the standing to the swinging foot.
+    wanted = tick.pendulum.dcm + (tick.pendulum.dcm - tick.pendulum.goal) / (math.exp(3.5 * left) - 1.0)
+    nearest = shapely.ops.nearest_points(shapely.Polygon(tick.pendulum.zmp_region), shapely.Point(wanted))[0]
+    step = tick.phase.step
+    runs_to_foot = (wanted - [nearest.x, nearest.y]) @ (tick.plan.vrp(step) - tick.plan.stance_vrp(step)) > 0.0
+    allowed = later.tolist() + (sooner.tolist() if runs_to_foot else [])
     best = min([missed(tick, t) + RULES.price * abs(t - left) for t in allowed], default=before)
     if change is None:
-        soon = min(missed(tick, t) + RULES.price * abs(t - left) for t in (left - PERIOD, left, left + PERIOD))
+        near = (left - PERIOD, left, left + PERIOD) if runs_to_foot else (left, left + PERIOD)
+        soon = min(missed(tick, t) + RULES.price * abs(t - left) for t in near)
         assert before < RULES.least_error or best >= soon - 1e-12  # a change of one period is none
         return
     after = left + change.longer
