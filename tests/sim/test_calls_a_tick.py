@@ -66,9 +66,9 @@ SLOWINGS = {
     "a lost cache of rotations": (FootMotion, "rotation", _forget_rotations),
     "a lost cache of the ZMP's region": (FootContacts, "zmp_region", _forget_region),
     "a lost cache of contacts": (ContactMemory, "encloses", _forget_polygon),
-    "kinematics computed twice": (LegModel, "follow_soles", lambda legs: legs.live_posture(legs.joints)),
+    "kinematics computed twice": (LegModel, "follow_command", lambda legs: legs.live_posture(legs.joints)),
     "a plan looked at once more": (Footing, "perceive", lambda footing: footing._plan.at(2.0)),
-    "a convenience of numpy": (LegModel, "carry_soles", lambda _: np.repeat([0.5, 0.5], 6)),
+    "a convenience of numpy": (LegModel, "carry_command", lambda _: np.repeat([0.5, 0.5], 6)),
     "a dictionary by a comprehension": (WalkPlan, "at", lambda _: {side: len(side) for side in SIDES}),
 }
 

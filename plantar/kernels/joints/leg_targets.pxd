@@ -10,6 +10,8 @@ cdef class LegTargets:
     cdef double[::1] right
     cdef double[:, ::1] right_turn
     cpdef void take(self, com, torso, left, left_turn, right, right_turn) except *
+    @cython.locals(unloaded=int)
+    cpdef int follow(self, command) except -1
 
 @cython.final
 cdef class JointEntries:

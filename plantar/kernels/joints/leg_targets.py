@@ -34,6 +34,18 @@ class LegTargets:
                 self.left_turn[i, j] = e[3 * i + j]
                 self.right_turn[i, j] = f[3 * i + j]
 
+    def follow(self, command):
+        """Copy the targets of a `plantar.gait.command.Command`; ValueError as `take`.
+
+        Returns which feet carry no load: 1 for the left one, plus 2 for the right one.
+        """
+        feet = command.feet
+        left = feet["left"]
+        right = feet["right"]
+        self.take(command.com, command.rotation_torso, left.position, left.rotation, right.position, right.rotation)
+        unloaded = 1 if memory.values(left.force)[2] <= 0.0 else 0
+        return unloaded + 2 if memory.values(right.force)[2] <= 0.0 else unloaded
+
 
 class JointEntries:
     """Copies the entries at `places` (k,) of a vector (n,) to `entries` (k,)."""

@@ -1,6 +1,7 @@
 """A robot's legs: forward and inverse kinematics, and torques."""
 
 from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import mujoco
@@ -9,7 +10,9 @@ from numpy.typing import NDArray
 
 from plantar.common.arrays import read_only
 from plantar.common.sides import SIDES, Side
+from plantar.gait.command import Command, FootTarget
 from plantar.gait.estimate.estimator import Posture
+from plantar.kernels.joints.carried_motion import CarriedMotion
 from plantar.kernels.joints.leg_targets import JointEntries, LegTargets
 from plantar.kernels.joints.motion_load import MotionLoad
 from plantar.kernels.joints.static_load import StaticLoad
@@ -23,6 +26,8 @@ from plantar.robots.kinematics.tasks.task import chain
 
 _NOTHING = read_only(np.zeros(2))
 _FULL_LEG = 6  # joints of a leg that can give its sole any pose
+# Feet that miss their targets first, by which carry no load (`LegTargets.follow`)
+_UNLOADED: tuple[tuple[Side, ...], ...] = ((), ("left",), ("right",), ("left", "right"))
 
 
 class LegModel:
@@ -106,6 +111,15 @@ class LegModel:
             self._reference,
             self.rows,
             unit,
+        )
+        self._carried = CarriedMotion(
+            self.inverse.place,
+            self._load,
+            self._both_levers,
+            self._motion,
+            partial(mujoco.mj_comVel, model, data),
+            partial(mujoco.mj_rne, model, data, 1, self._inertial),
+            self.mass * GRAVITY,
         )
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
@@ -195,31 +209,51 @@ class LegModel:
         """
         left = positions["left"], rotations["left"]
         right = positions["right"], rotations["right"]
-        return self.follow_soles(com, rotation_torso, left, right, iterations, tuple(yielding), largest_step)
-
-    def follow_soles(
-        self,
-        com: NDArray[np.float64],
-        rotation_torso: NDArray[np.float64],
-        left: tuple[NDArray[np.float64], NDArray[np.float64]],
-        right: tuple[NDArray[np.float64], NDArray[np.float64]],
-        iterations: int,
-        yielding: tuple[Side, ...],
-        largest_step: float,
-    ) -> float:
-        """`follow` with each sole's position (3,) in m and rotation (3, 3)."""
         targets = com, rotation_torso, *left, *right
         try:
             self._targets.take(*targets)
         except ValueError:  # one is of other strides or numbers than the kernel takes
             self._targets.take(*(np.ascontiguousarray(target, dtype=np.float64) for target in targets))
-        if yielding != self._yielding:
-            self._yielding = yielding
-            for side, sole in self._soles.items():
-                sole.level = 1 if side in yielding else 0
+        self._yield_first(tuple(yielding))
         missed = self.inverse.solve(iterations, largest_step)
         self._angle_entries.take()
         return missed
+
+    def _yield_first(self, yielding: tuple[Side, ...]) -> None:
+        self._yielding = yielding
+        for side, sole in self._soles.items():
+            sole.level = 1 if side in yielding else 0
+
+    def follow_command(self, command: Command, largest_step: float) -> float:
+        """`follow` of a command in one step; feet without load miss their targets first."""
+        try:
+            yielding = _UNLOADED[self._targets.follow(command)]
+        except ValueError:  # an array is of other strides or numbers than the kernel takes
+            left, right = (_contiguous(command.feet[side]) for side in SIDES)
+            com, torso = (np.ascontiguousarray(a, dtype=np.float64) for a in (command.com, command.rotation_torso))
+            feet = {"left": left, "right": right}
+            yielding = _UNLOADED[self._targets.follow(command.changed(com=com, rotation_torso=torso, feet=feet))]
+        if yielding is not self._yielding:  # as it is in nearly all ticks
+            self._yield_first(yielding)
+        missed = self.inverse.solve(1, largest_step)
+        self._angle_entries.take()
+        return missed
+
+    def carry_command(
+        self, command: Command, velocity: NDArray[np.float64], acceleration: NDArray[np.float64], whole: bool
+    ) -> None:
+        """`carry` and `add_motion` of a command, whose forces act at its centers of pressure, as high as its soles.
+
+        `velocity` of base and joints (6 + k,) in m/s and rad/s; `acceleration` in m/s^2 and rad/s^2; `whole`: as of
+        `add_motion`.
+        """
+        feet = command.feet
+        try:
+            self._carried.take(feet["left"], feet["right"], velocity, acceleration, command.momentum, whole)
+        except ValueError:  # an array is of other strides or numbers than the kernel takes
+            left, right = (_contiguous(feet[side]) for side in SIDES)
+            momentum = np.ascontiguousarray(command.momentum, dtype=np.float64)
+            self._carried.take(left, right, velocity, acceleration, momentum, whole)
 
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
         """Compute the joint `torques` of the last solution: tau = g(q) - sum J^T f.
@@ -235,24 +269,6 @@ class LegModel:
             if force.item(2) > 0.0:
                 load.less(lever, force, *points[side])
         load.take()
-
-    def carry_soles(
-        self,
-        left: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
-        right: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
-    ) -> float:
-        """`carry` with the ground force (3,) in N on each sole, the point (2,) in m where it acts, and the sole's
-        position (3,) in m, all in the world frame, at whose height that point is.
-
-        Returns the left sole's share of the vertical force.
-        """
-        self.inverse.place()
-        levers = self._both_levers
-        try:
-            return float(self._load.stand(levers, *left, *right))
-        except ValueError:  # an array is of other strides or numbers than the kernel takes
-            given = (np.ascontiguousarray(array, dtype=np.float64) for array in (*left, *right))
-            return float(self._load.stand(levers, *given))
 
     def add_motion(
         self,
@@ -279,6 +295,12 @@ class LegModel:
         x, y = momentum.tolist()
         weight = self.mass * GRAVITY
         self._motion.add(acceleration, left, weight * y, -weight * x, whole)
+
+
+def _contiguous(foot: FootTarget) -> FootTarget:
+    """The same target in arrays that kernels take."""
+    arrays = (foot.position, foot.rotation, foot.force, foot.center_of_pressure)
+    return FootTarget(*(np.ascontiguousarray(array, dtype=np.float64) for array in arrays))
 
 
 def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> PointRows:

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.gait.command import Command
 from plantar.kernels.joints.motion_load import JointMotion
-from plantar.robots.kinematics.command_joints import carry_command
 from plantar.robots.kinematics.leg_model import LegModel
 
 _SMOOTH = 0.04  # beat, time constant of the low pass on the acceleration: 10 ms on a leg of 0.6 m
@@ -48,5 +47,4 @@ class PlannedMotion:
 
     def carry(self, command: Command) -> None:
         """Torques of the last solution under a `command`'s forces and of its motion: the legs' `torques`."""
-        share = carry_command(self._legs, command)
-        self._legs.add_motion(self.velocity, self.acceleration, share, command.momentum, self._whole)
+        self._legs.carry_command(command, self.velocity, self.acceleration, self._whole)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from plantar.common.sides import SIDES
+from plantar.gait.command import Command, FootTarget
 from plantar.layouts.layout import Side
 from plantar.robots import load_robot
 from plantar.robots.kinematics.leg_model import LegModel
@@ -148,6 +149,43 @@ def test_torques_balance_gravity_and_ground_forces(legs):
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
     mujoco.mj_inverse(model, data)
     assert torques == pytest.approx((data.qfrc_inverse - applied)[6:], abs=1e-9)
+
+
+def command_of(com, torso, positions, rotations, forces, centers):
+    """A command of which legs read targets, forces and momentum alone."""
+    feet = {side: FootTarget(positions[side], rotations[side], forces[side], centers[side]) for side in SIDES}
+    return Command(com, torso, feet, *([None] * 6), momentum=np.array([2e-3, -3e-3]))
+
+
+@pytest.mark.parametrize("strided", [False, True])
+@pytest.mark.parametrize("unloaded", [(), ("left",), ("right",)])
+def test_a_command_is_followed_and_carried_as_by_its_parts(h1, unloaded, strided):
+    pair = [build_leg_model(h1) for _ in range(2)]
+    rng = np.random.default_rng(len(unloaded))
+    for legs in pair:
+        posture = np.array([*h1.posture["left"], *h1.posture["right"]])
+        legs.set_configuration(np.array([0.0, 0.0, 0.84]), np.array([1.0, 0.0, 0.0, 0.0]), posture)
+    whole, parts = pair
+    for seed in range(5):
+        com, torso, positions, rotations = random_targets(seed)
+        forces = {side: rng.normal((0.0, 0.0, 400.0), 100.0) for side in SIDES}
+        for side in unloaded:
+            forces[side][2] = -1.0
+        centers = {side: positions[side][:2] + rng.normal(0.0, 0.02, 2) for side in SIDES}
+        velocity, acceleration = rng.normal(size=(2, len(whole.rows)))
+        command = command_of(com, torso, positions, rotations, forces, centers)
+        if strided:
+            loads = {side: np.repeat(forces[side], 2)[::2] for side in SIDES}
+            command = command_of(com, torso, positions, rotations, loads, centers)
+        missed = whole.follow_command(command, 0.1)
+        assert missed == parts.follow(com, torso, positions, rotations, 1, unloaded, 0.1)
+        assert np.array_equal(whole.joints, parts.joints)
+        whole.carry_command(command, velocity, acceleration, bool(seed % 2))
+        parts.carry(forces, {side: [*centers[side], positions[side][2]] for side in SIDES})
+        pressing = [max(0.0, float(forces[side][2])) for side in SIDES]
+        share = pressing[0] / sum(pressing)
+        parts.add_motion(velocity, acceleration, share, command.momentum, bool(seed % 2))
+        assert np.array_equal(whole.torques, parts.torques)
 
 
 Swing = Callable[[float], tuple[NDArray[np.float64], NDArray[np.float64]]]
