@@ -18,6 +18,8 @@ from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.geometry.inscribed import inscribed_circle
 from plantar.geometry.polygon import area, convex_hull, inner_offset, signed_margin
+from plantar.kernels.base.vectors import vector
+from plantar.kernels.geometry.convex import seen_from_above
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
@@ -357,11 +359,10 @@ class FootContacts:
                 support = foot.alone if alone else foot.support
                 if support is None:
                     position, yaw = feet.footholds[side]
-                    support = polygon_in_world(
-                        (self._alone if alone else self._borne)[side],
-                        level_rotation(yaw),
-                        np.array([position[0], position[1], 0.0]) + np.array(frame_offset),
-                    )
+                    x, y, _ = frame_offset
+                    place = vector(position.item(0) + x, position.item(1) + y, 0.0)
+                    # By the kernel itself: what is checked of a caller's polygon takes four times as long.
+                    support = seen_from_above((self._alone if alone else self._borne)[side], level_rotation(yaw), place)
                 parts.append(support)
             support = feet_support_polygon(parts)
             circle = inscribed_circle(support)

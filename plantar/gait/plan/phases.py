@@ -121,7 +121,10 @@ class WalkSchedule:
 
     def following(self, phase: Phase) -> Phase:
         """The phase after one of `phases`; the last for itself."""
-        return self.phases[min(self.phases.index(phase) + 1, len(self.phases) - 1)]
+        i = self.index(phase.start)
+        if self.phases[i] is not phase:  # an equal one is looked for among all: 1 us each
+            i = self.phases.index(phase)
+        return self.phases[min(i + 1, len(self.phases) - 1)]
 
     def before(self, phase: Phase) -> Phase:
         """The phase before one of `phases`; the first for itself."""
