@@ -13,6 +13,7 @@ from plantar.shoes.papers.orders import (
     Order,
     board_order,
     foam_order,
+    glue_order,
     nut_order,
     print_order,
     screw_length,
@@ -95,15 +96,16 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights, wiring: Wiring
         parts.append(Part("connection board", 1, "FR4", size, weights.board, note, *board_order(p)))
     if wiring is not None:
         parts += [
-            Part(b.what, b.quantity, b.references, "-", None, "read-out", f"{b.maker} {b.part}", b.address)
+            Part(b.what, b.quantity, b.references, "", None, "read-out", f"{b.maker} {b.part}", b.address)
             for b in wiring.bought
         ]
     elif plan.connectors:
         length = f"{math.ceil(_cable(plan, p))} mm or longer"
         order = f"flat cable, {length}, as the laboratory's cells take it"
         parts.append(Part("cable", len(plan.connectors), "flat", length, None, "patch to heel, in the channel", order))
-    parts += _holding(build, high_y - low_y)
-    return parts
+    note = "cells into their pockets, a sheet at its rim" + (", the pad" if p.pad_thickness > 0.0 else "")
+    parts.append(Part("adhesive", 1, "silicone", "one tube", None, note, *glue_order()))
+    return parts + _holding(build, high_y - low_y)
 
 
 def _ordered(cell: Cell) -> tuple[str, str]:

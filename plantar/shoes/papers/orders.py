@@ -57,6 +57,8 @@ _SILICONE = (
     "https://www.reynoldsam.com/faq/do-you-have-a-rubber-that-is-food-safe-for-casting-chocolate-and-other-food-items/"
 )
 
+_GLUE = "https://dge-europe.com/dowsil-silicone-sealants-foams-industrial-appliance-maintenance"
+
 _STRAPS = (20.0, 25.0, 30.0, 50.0)  # widths that rolls of hook and loop have
 _STRAP = "https://www.velcro.co.uk/"
 _BOARD = "https://github.com/sparkfun/PTH_protoboard_30"
@@ -101,6 +103,11 @@ def silicone_order(side: str, parameters: ShoeParameters) -> Order:
     named = f" (Smooth-On {_SILICONES[nearest]})" if abs(nearest - hardness) <= 5.0 else ""
     text = f"two-part silicone of {hardness:g} Shore A{named}; mould_{side}.stl printed in any material"
     return Order(text, _SILICONE)
+
+
+def glue_order() -> Order:
+    """Order of what cells and pad are glued with: it stays soft, and does not corrode leads as acetic silicone does."""
+    return Order("one-part silicone that cures neutrally, no acetic one (Dow, DOWSIL sealants)", _GLUE)
 
 
 def strap_order(width: float) -> Order:

@@ -165,7 +165,7 @@ def _dividers(ids: list[int], lengths: list[float]) -> Wiring:
         Bought(_span("U", 2, count), count, *_MULTIPLEXER),
         Bought(f"R{ids[0]} to R{ids[-1]}", len(ids), *_RESISTOR),
         *_wires(leads),
-        Bought("-", 1, *_CABLE),
+        Bought("", 1, *_CABLE),
     )
     return Wiring("divider", _gathered(pins), tuple(leads), bought, tuple(channels))
 
@@ -202,7 +202,7 @@ def _bridges(cell: Cell, ids: list[int], lengths: list[float]) -> Wiring:
         Bought("U1", 1, *_PICO),
         Bought(_span("U", 2, len(ids)), len(ids), *_AMPLIFIER),
         *_wires(leads),
-        Bought("-", 1, *_CABLE),
+        Bought("", 1, *_CABLE),
     )
     return Wiring("bridge", _gathered(pins), tuple(leads), bought, tuple(channels))
 
@@ -238,7 +238,7 @@ def _matrix(shoe: Shoe, tail: tuple[str, ...]) -> Wiring:
             "lines and gaps 0.15 mm, holes 0.2 mm, ENIG",
             "flexible board", "https://www.ourpcb.com/flexible-pcb-capability",
         ),
-        Bought("-", 1, *_CABLE),
+        Bought("", 1, *_CABLE),
     )  # fmt: skip
     return Wiring("matrix", _gathered(pins), (), bought, tuple(channels), tail)
 
@@ -252,4 +252,4 @@ def _wires(leads: list[Lead]) -> Iterator[Bought]:
         metres = 1e-3 * sum(lead.length for lead in leads if lead.colour == colour)
         half = -(-int(2000 * metres) // 1000) / 2.0
         maker, part, address = _WIRE
-        yield Bought("-", 1, maker, f"{part}, {colour}, {half:g} m", "leads", address)
+        yield Bought("", 1, maker, f"{part}, {colour}, {half:g} m", "leads", address)

@@ -75,7 +75,7 @@ def test_the_bill_lists_what_a_shoe_needs(exported):
     report, folder = exported
     rows = list(csv.DictReader(io.StringIO((folder / "parts.csv").read_text())))
     left = {row["part"]: row for row in rows if row["side"] == "left"}
-    assert set(left) == {"shoe, left", "pad, left", "taxel", "connection board", "cable", "strap"}
+    assert set(left) == {"shoe, left", "pad, left", "taxel", "connection board", "cable", "adhesive", "strap"}
     assert int(left["taxel"]["quantity"]) == len(report.build.shoes[0].layout)
     assert float(left["shoe, left"]["mass_g"]) == report.checks["left"].mass_g
     assert left["shoe, left"]["material"] == "PA12"
