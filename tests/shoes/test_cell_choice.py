@@ -24,6 +24,14 @@ def test_the_choice_carries_the_load_and_says_why_others_do_not():
     assert build.fit.cell == choice.cell
 
 
+def test_a_foot_too_small_for_a_sheets_combs_gets_other_cells():
+    """A taxel at the rim of so small a sheet has no room for a finger of its comb, from which a line could lead."""
+    foot = foot_from_dimensions("tiny", length=0.062, width=0.039, corner_radius=0.005)
+    choice = choose_cell(foot)
+    assert choice.cell.name == "fsr_402_short"
+    assert any(note.startswith("cell velostat: ") for note in choice.notes)
+
+
 @pytest.mark.long
 def test_a_weight_that_no_cell_carries_is_refused():
     foot = foot_from_dimensions("a", length=0.12, width=0.07, corner_radius=0.01, mass=300.0)

@@ -285,29 +285,28 @@ def _check_height(triangles: Triangles, where: str) -> None:
         )
 
 
+_ALONE = ", without a leg or a floor that reaches farther"
+
+
 def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:
     """Gives scale to mm and a note for a foot of an extent: user's unit, the file_unit stated in the file, or detected;
     where is the file's name.
     """
     low, high = FOOT_LENGTHS
-    allowed = f"allowed: a foot of {low:g} to {high:g} mm"
+    fitting = [u for u, scale in UNIT_SIZE.items() if low <= extent * scale <= high]
+    mends = " or ".join(f"--unit {u}, {extent * UNIT_SIZE[u]:.4g} mm long" for u in fitting)
+    allowed = f"allowed: a foot of {low:g} to {high:g} mm" + (f" ({mends})" if mends else "") + _ALONE
     for given, source in ((unit, "as given"), (file_unit, "as the file states")):
         if given is None:
             continue
         size = extent * UNIT_SIZE[given]
-        if not low <= size <= high:
-            others = [u for u, scale in UNIT_SIZE.items() if low <= extent * scale <= high]
-            mends = " or ".join(f"--unit {u}, {extent * UNIT_SIZE[u]:.4g} mm long" for u in others)
-            allowed += f" ({mends})" if mends else ""
+        if given not in fitting:
             raise FootError(f"{where}: the foot is {size:.6g} mm long (unit {given} {source}); {allowed}")
         return UNIT_SIZE[given], f"unit {given} {source}"
     for guess in ("m", "mm"):
-        if low <= extent * UNIT_SIZE[guess] <= high:
+        if guess in fitting:
             return UNIT_SIZE[guess], f"unit {guess}, detected from the size ({extent:.4g} {guess} long)"
-    raise FootError(
-        f"{where}: the foot is {extent:.4g} long, which fits neither m nor mm; {allowed}, "
-        "or give the unit (m, cm, mm, in)"
-    )
+    raise FootError(f"{where}: the foot is {extent:.4g} long, which fits neither m nor mm; {allowed}")
 
 
 def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, path: str) -> Any:

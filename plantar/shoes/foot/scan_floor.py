@@ -33,10 +33,12 @@ def floor_of_scan(triangles: Triangles) -> NDArray[np.bool_]:
         return none
     room = shapely.union_all([shapely.Polygon(part.exterior) for part in shapely.get_parts(foot)]).buffer(_BESIDE)
     shapely.prepare(room)
-    floor = low & ~shapely.contains_xy(room, triangles[..., 0], triangles[..., 1]).all(axis=1)
+    beside = ~shapely.contains_xy(room, triangles[..., 0], triangles[..., 1]).all(axis=1)
+    floor = low & beside
     if not floor.any():
         return none
-    sheet = triangles[floor][..., :2]
+    # A plate's upper side may lie above the band: it is looked for in all that does not rise.
+    sheet = triangles[~rising & beside][..., :2]
     a = sheet[:, 1] - sheet[:, 0]
     b = sheet[:, 2] - sheet[:, 0]
     signed = 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])

@@ -81,7 +81,9 @@ class GridRouter:
         )
 
     def within(self, shape: Any, layer: int, net: int) -> list[Node]:
-        """A net's own nodes of a layer in a shapely shape."""
+        """A net's own nodes of a layer in a shapely shape; none in an empty one."""
+        if shape.is_empty:
+            return []
         box = self._box(shape)
         points = self._points[box]
         shapely.prepare(shape)

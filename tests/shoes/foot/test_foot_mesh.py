@@ -30,6 +30,24 @@ def test_the_unit_is_found_and_stated(box, stl, scale, unit, note):
     assert any("sole plane at the mesh's lowest point, z = 10.0 mm" in n for n in foot.notes)
 
 
+@pytest.mark.parametrize(
+    ("length", "unit", "message"),
+    [
+        (
+            25.2,
+            None,
+            r"fits neither m nor mm; allowed: a foot of 60 to 450 mm \(--unit cm, 252 mm long\), without a leg",
+        ),
+        (9.9, None, r"\(--unit cm, 99 mm long or --unit in, 251.5 mm long\)"),
+        (252.0, "m", r"the foot is 252000 mm long \(unit m as given\); allowed: .*\(--unit mm, 252 mm long\)"),
+        (1.0, "m", r"1000 mm long \(unit m as given\); allowed: a foot of 60 to 450 mm, without a leg or a floor that"),
+    ],
+)
+def test_a_length_that_fits_no_foot_is_refused_with_the_unit_that_would_fit(box, stl, length, unit, message):
+    with pytest.raises(FootError, match=message):
+        foot_from_mesh(stl(box((0, length), (0, 0.4 * length), (0, 0.3 * length))), unit=unit)
+
+
 def test_another_sole_plane_and_forward_axis_can_be_given(box, stl):
     # Along y: a foot of 200 x 80 with a stud below its sole.
     body = np.concatenate([box((-40, 40), (-50, 150), (0, 60)), box((-5, 5), (0, 10), (-8, 0))])

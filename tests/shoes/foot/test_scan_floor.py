@@ -49,6 +49,11 @@ def test_no_foot_of_the_family_has_a_floor(name):
     assert not floor_of_scan(FAMILY[name]()).any()
 
 
-def test_a_thin_plate_below_an_ankle_is_a_sole():
-    plate = np.concatenate([box((-80, 150), (-45, 45), (0, 2)), box((-20, 20), (-20, 20), (2, 60))])
+@pytest.mark.parametrize("thickness", [2.0, 4.0, 5.5, 8.0])
+def test_a_thin_plate_below_an_ankle_is_a_sole(thickness):
+    """Of one that is thicker than a floor may be rough, the lower side alone lies where a floor would."""
+    plate = np.concatenate([box((-80, 150), (-45, 45), (0, thickness)), box((-20, 20), (-20, 20), (thickness, 60))])
     assert not floor_of_scan(plate).any()
+    foot = foot_from_triangles("plate", plate, where="plate", file_unit="mm")
+    assert np.ptp(np.reshape(foot.sole.bounds, (2, 2)), axis=0) == pytest.approx([230.0, 90.0], abs=0.1)
+    assert foot.height == pytest.approx(60.0)
