@@ -50,9 +50,9 @@ start = robot.pose(hand)[0]
 largest = 0.0
 for _ in range(int(1.0 / model.opt.timestep)):  # a ball comes 5 cm nearer, and stays
     data.mocap_pos[0] = place + (0.06 - min(0.1 * data.time, 0.05)) * out
+    reading = skins.whole(data)  # of the step before: mj_step2 solves the forces of contacts, mj_step1 clears them
     mujoco.mj_step1(model, data)
     robot.update(data.qpos, data.qvel, data.time)
-    reading = skins.whole(data)
     data.ctrl[:] = np.clip(stack.step(robot, reading).torque, -limits, limits)
     mujoco.mj_step2(model, data)
     largest = max(largest, float(reading.force.sum()))
