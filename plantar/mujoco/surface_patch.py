@@ -16,6 +16,7 @@ _ROUNDS = 40  # of moving cells to their middles; after 30 they move by less tha
 _TURNED = 0.6  # cell widths: how far apart two opposite sides are besides; keeps a cell on one side of a sheet
 _SHIFTS = (0.2137, 0.3541, 0.4712)  # of the samples' lattice: no symmetric body has samples at equal distances
 _STRIP = 0.35  # of a cell's width: a narrower region carries no row of cells
+_BESIDE = 2.5e-6  # m: faces within half of it are one; `GeomSurface.contains` sees a micrometre
 _TIE = 1e-10  # m: distances that differ by less are equal
 _SLENDER = 25.0  # a region that is so many times longer than wide is a strip
 _NEAR = 1.25  # cell widths: a contact reaches the cells next to its own
@@ -87,7 +88,8 @@ def width_of(area: float) -> float:
 def sampled(surfaces: Sequence[GeomSurface], pitch: float, mirrored: bool) -> Samples:
     """Sample a body's surface: lines of a lattice along each axis, where the normal is nearest that axis.
 
-    A point's area is pitch^2 / |cos| of its normal to the line; what lies inside of another geom is left out. With
+    A point's area is pitch^2 / |cos| of its normal to the line; what lies inside of another geom, or between two that
+    touch, is left out, and a face that several geoms share is sampled once. With
     `mirrored` the lattice is that of a body mirrored in y, so that its points are mirrored.
     """
     flip = np.array([1.0, -1.0 if mirrored else 1.0, 1.0])
@@ -116,8 +118,12 @@ def sampled(surfaces: Sequence[GeomSurface], pitch: float, mirrored: bool) -> Sa
             most = steep.max(axis=1, initial=0.0)
             own = np.argmax(steep >= most[:, None] - 1e-9, axis=1) == axis
             for j, other in enumerate(surfaces):
-                if j != k:
-                    own &= ~other.contains(at)
+                if j == k:
+                    continue
+                # What geoms have in common is no surface where they face each other, and one where they face one way.
+                own &= ~other.contains(at) & ~other.contains(at + _BESIDE * out)
+                if j < k:
+                    own &= ~other.contains(at - _BESIDE * out)
             points.append(at[own])
             normals.append(out[own])
             areas.append(pitch * pitch / steep[own, axis])

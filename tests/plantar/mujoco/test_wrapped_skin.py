@@ -182,6 +182,36 @@ def test_a_patch_in_a_region_ends_where_the_region_does():
         agree(feel, touch(model, 140.0, height), lambda _, e=expected: e, expected)
 
 
+WHOLE_BOX = 'type="box" size=".1 .05 .03"'
+ALL_OVER = {"region": ((-1, -1, -1), (1, 1, 1))}
+
+
+@pytest.mark.parametrize("way", [{"outward": (0, 0, -1)}, {"outward": (1, 0, 0)}, ALL_OVER])
+@pytest.mark.parametrize(
+    "shapes",
+    [  # drawn twice, side by side, over each other
+        (WHOLE_BOX, WHOLE_BOX),
+        ('type="box" size=".05 .05 .03" pos="-.05 0 0"', 'type="box" size=".05 .05 .03" pos=".05 0 0"'),
+        ('type="box" size=".08 .05 .03" pos="-.02 0 0"', 'type="box" size=".07 .05 .03" pos=".03 0 0"'),
+    ],
+)
+def test_shapes_that_share_faces_have_the_surface_of_their_union(shapes, way):
+    """All are one box of 20 by 10 by 6 cm, and have its cells."""
+    found = []
+    for parts in ((WHOLE_BOX,), shapes):
+        geoms = "".join(f"<geom {part}/>" for part in parts)
+        model = mujoco.MjModel.from_xml_string(
+            f"<mujoco><worldbody><body name='b'><freejoint/>{geoms}</body></worldbody></mujoco>"
+        )
+        feel = Skin(body="b", **way).bind(model)
+        found.append(feel.layout.areas.sum())
+        if "outward" in way:
+            places = feel.layout.positions @ feel.rotation_to_body.T + feel.position_in_body
+            out = np.array(way["outward"])
+            assert places @ out == pytest.approx(np.abs(out) @ [0.1, 0.05, 0.03], abs=1e-9)
+    assert found[1] == pytest.approx(found[0], rel=0.01)
+
+
 @pytest.mark.parametrize(("probe", "height"), [(BALL, 0.0), (SPHERE, 0.049)])
 def test_a_mesh_that_presses_and_a_touch_at_the_rim(probe, height):
     """2 set-ups: several contacts at once; a contact that is beyond the outermost cells."""
