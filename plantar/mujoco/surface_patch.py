@@ -118,16 +118,32 @@ def sampled(surfaces: Sequence[GeomSurface], pitch: float, mirrored: bool) -> Sa
             most = steep.max(axis=1, initial=0.0)
             own = np.argmax(steep >= most[:, None] - 1e-9, axis=1) == axis
             for j, other in enumerate(surfaces):
-                if j == k:
-                    continue
-                # What geoms have in common is no surface where they face each other, and one where they face one way.
-                own &= ~other.contains(at) & ~other.contains(at + _BESIDE * out)
-                if j < k:
-                    own &= ~other.contains(at - _BESIDE * out)
+                if j != k:
+                    _leave_out(own, at, out, other, others_first=j < k)
             points.append(at[own])
             normals.append(out[own])
             areas.append(pitch * pitch / steep[own, axis])
     return Samples(np.vstack(points), np.vstack(normals), np.concatenate(areas), pitch)
+
+
+def _leave_out(
+    own: NDArray[np.bool_], at: NDArray[np.float64], out: NDArray[np.float64], other: GeomSurface, others_first: bool
+) -> None:
+    """Take from `own` (n,) the points `at` (n, 3), normals `out` (n, 3), that are no surface beside an `other` geom.
+
+    What geoms have in common is no surface where they face each other, and one surface, of the first of them, where
+    they face one way.
+    """
+    low, high = other.bounds()
+    seen = np.flatnonzero(own & (at > low - _BESIDE).all(axis=1) & (at < high + _BESIDE).all(axis=1))
+    if not len(seen):
+        return
+    places = at[seen]
+    aside = _BESIDE * out[seen]
+    hidden = other.contains(places) | other.contains(places + aside)
+    if others_first:
+        hidden |= other.contains(places - aside)
+    own[seen[hidden]] = False
 
 
 def spread_cells(samples: Samples, area: float, where: str) -> SurfaceCells:
