@@ -104,6 +104,8 @@ class Skin:
             raise InputError(f"geoms is {geoms!r}; expected a list of names")
         self.body = body
         self.geoms = None if geoms is None else tuple(str(name) for name in items(geoms, "geoms"))
+        if self.geoms == ():
+            raise InputError("geoms are empty; allowed: names of one geom or more, or None for all of the body")
         self.site = site
         self.outward = outward
         self.forward = forward
@@ -289,7 +291,8 @@ class Skin:
                     raise RobotError(f"geom '{name}' {why}; allowed: colliding geoms of '{self.body}' or fixed to it")
             geoms = named
         if not geoms:
-            able = sorted({model.body(int(b)).name for b in model.geom_bodyid[model.geom_contype != 0] if b})
+            touching = (model.geom_contype | model.geom_conaffinity) != 0
+            able = sorted({model.body(int(b)).name for b in model.geom_bodyid[touching] if b})
             listed = ", ".join(able) or "none"
             raise RobotError(f"body '{self.body}' has no geom that collides; bodies that have: {listed}")
         return geoms

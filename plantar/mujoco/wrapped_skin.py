@@ -93,7 +93,12 @@ def wrapped_skin(
     area = fitted_cell_area(total) if cell_area is None else cell_area
     pitch = max(width_of(area) / 8.0, _FINEST)
     pitch = max(pitch, math.sqrt(6.0 * float(np.prod(np.sort(high - low)[1:])) / _MOST_SAMPLES))
-    samples = _chosen(surfaces, pitch, is_right, chosen, where)
+    try:
+        samples = _chosen(surfaces, pitch, is_right, chosen, where)
+    except RobotError:  # which the coarse samples were not
+        raise RobotError(
+            f"{where}: a cell of {area:g} m^2 is too large for its surface of {total:.3g} m^2; give a smaller cell_area"
+        ) from None
     flat = _flat_outline(surfaces, samples, chosen, rotation) if out is not None else None
     if flat is None:
         cells = spread_cells(samples, area, where)

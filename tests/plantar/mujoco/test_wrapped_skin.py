@@ -322,6 +322,7 @@ def test_a_yawed_foot_has_its_own_axes(yaw):
         ({"outward": (0, 0, 0)}, "not all 0"),
         ({"around": "z"}, "'around' is z"),
         ({"around": (0, 0, 1), "cell_area": 1e-7}, "give a larger cell_area"),
+        ({"around": (0, 0, 1), "cell_area": 691.0}, r"a cell of 691 m\^2 is too large for its surface of 0.0[0-9]+ m"),
         ({"body": "probe", "geoms": ["other"], "around": (0, 0, 1)}, "no geom named 'other'"),
     ],
 )
@@ -343,6 +344,7 @@ def test_a_sole_on_its_edge_is_refused(pitch):
 def test_arguments_that_exclude_each_other_are_refused(make_box):
     for options in (
         {"site": "a", "region": ((0, 0, 0), (1, 1, 1))},
+        {"geoms": []},
         {"polygon": [(0, 0), (1, 0), (1, 1)]},
         {"outward": (1, 0, 0), "within": 0.0},
         {"outward": (1, 0, 0), "within": 181.0},
