@@ -127,12 +127,18 @@ def named_note(text: str, names: Sequence[str]) -> list[str]:
 
 
 def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
-    """Returns an `error` with explaining `notes`."""
+    """Returns an `error` with explaining `notes`: which meshes are missing, first, and what may have led to it."""
     notes = tuple(notes)
-    missing = [note for note in notes if note.startswith(("meshes are missing", "mesh "))][:2]
-    causes = [note for note in notes if note.startswith("held, ") or ("cannot be" in note and note not in missing)]
+    missing = [_shortened(note) for note in notes if note.startswith(("meshes are missing", "mesh "))][:1]
+    causes = [n for n in notes if n.startswith("held, ") or ("cannot be" in n and not n.startswith("mesh"))]
     file, _, problem = str(error).partition(": ")
     return RobotError("; ".join([f"{file}: {'; '.join([*missing, problem])}", *causes[:3]]))
+
+
+def _shortened(note: str, most: int = 3) -> str:
+    """A note with its first names alone, so that it does not bury the error."""
+    names = note.split(", ")
+    return note if len(names) <= most else f"{', '.join(names[:most])} and {len(names) - most} more"
 
 
 def _read_joints(root: ElementTree.Element, file: Path, stated: _Stated) -> None:
