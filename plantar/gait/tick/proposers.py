@@ -17,6 +17,7 @@ from plantar.gait.propose.edge_beside import EdgeBeside
 from plantar.gait.propose.foothold_found import FootholdCarries
 from plantar.gait.propose.foothold_refused import StepGuard
 from plantar.gait.propose.foothold_seen import FootholdSeenAhead
+from plantar.gait.propose.late_foot import LateFoot
 from plantar.gait.propose.learned_stride import LearnedStride
 from plantar.gait.propose.proposer import Proposer
 from plantar.gait.propose.ssp_opt import touching_distance
@@ -59,6 +60,7 @@ def proposers(
     ]
     if s.compliance is not None:
         edges = _NO_GROUND * s.ground_map.sensing_range, s.foothold.largest_shift
+        found.append(LateFoot(s.body.beat, s.period))
         found.append(EdgeBeside(layouts, *edges, drift=s.footholds != "off"))
     timing = None if s.step_timing is None else StepTiming(s.step_timing, s.period)
     if s.step_adjustment is None:
