@@ -53,6 +53,7 @@ class SwingCompliance:
         self.ground = GroundMap(layout, ground)
         self.switch = SoleWrenchSwitch(touchdown.contact_force)
         self._leg = gains.body.in_si("leg")
+        self._half_loaded = 0.5 * double_support
         brief = min(1.0, double_support / gains.crawl_time)
         self._reserve = brief * gains.reserve
         self._late = gains.late_speed_ratio / brief
@@ -139,6 +140,8 @@ class SwingCompliance:
         above = remaining < _THERE * self._leg
         left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
         quick = 1.0 - _SOONER * self._haste
+        # On ground that is not even a sole goes slowly, as far as it is down before it has to carry half of the weight.
+        in_time = left / max(time_left + self._half_loaded, g.damping)
         time_left /= quick
         reserve = self._reserve
         hurry = min(1.0, 2.0 - time_left / reserve) if time_left < 2.0 * reserve else 0.0
@@ -157,7 +160,7 @@ class SwingCompliance:
             wanted += self._haste * (planned - wanted)
             self._aim += self._haste * behind
             behind = distance - self._aim
-        most = g.top_speed if view.even else g.rough_speed
+        most = g.top_speed if view.even else min(g.top_speed, max(g.rough_speed, in_time))
         self._speed = min(wanted, most, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
         return self._moved(min(most, max(rise, self._speed + behind / g.correction)), period)

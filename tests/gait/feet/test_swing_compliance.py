@@ -83,6 +83,22 @@ def test_a_hurried_foot_is_down_sooner() -> None:
     assert quick < 0.75 * usual
 
 
+@pytest.mark.parametrize(("left", "double", "quick"), [(0.32, 0.3, False), (0.18, 0.1, True)])
+def test_a_sole_goes_slowly_where_ground_is_not_even_unless_it_would_be_late(
+    left: float, double: float, quick: bool
+) -> None:
+    gains = ComplianceGains()
+    compliance, height, speeds = swing(gains, double), 0.025, []
+    compliance.begin()
+    while height > 0.001:
+        drop = compliance.descent(GroundView(height, height, None, even=False), 0.3, 0.0, left, PERIOD)
+        speeds.append(drop / PERIOD)
+        height, left = height - drop, left - PERIOD
+    assert (max(speeds) > gains.rough_speed + 1e-9) == quick
+    assert max(speeds) < 2.0 * gains.rough_speed
+    assert not quick or len(speeds) * PERIOD < 0.7 * 0.025 / gains.rough_speed
+
+
 def test_touchdown_has_hysteresis_and_the_load_is_held() -> None:
     gains = ComplianceGains()
     compliance = swing(gains)
