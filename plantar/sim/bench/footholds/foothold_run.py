@@ -13,6 +13,7 @@ from plantar.gait.command import Sensors
 from plantar.robots.controller import JointTargets
 from plantar.sim.bench.footholds.observed import Observing
 from plantar.sim.bench.footholds.policy import Action, WalkTask
+from plantar.sim.judging.velocity_truth import STEPS_TO_REST
 from plantar.sim.run.run_summary import verdict_of
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, scene_of
@@ -146,13 +147,13 @@ class TrialRun:
         period = run.settings.period
         swings = tuple((phase.start, phase.touchdown) for phase in run.controller.schedule.phases if phase.swing)
         self.task = WalkTask(
-            robot, names, period, self._stance, run.feet, tuple(run.steps), run.end, walk,
+            robot, names, period, self._stance, run.feet, tuple(run.steps), _end(run), walk,
             swings=swings, velocities=run.velocities, weight=run.body.weight, leg=run.body.leg,
         )  # fmt: skip
         self._tick_every = round(period / run.world.period)
         self._look_every = round(_LOOK / run.world.period)
         patience = 1.0 if run.velocities is not None else _PATIENCE
-        self._last = round(patience * run.end / run.world.period)
+        self._last = round(patience * self.task.end / run.world.period)
         self._k = 0
         self._taken_all: float | None = None
         self._sense()
@@ -213,6 +214,18 @@ class TrialRun:
             float(run.world.data.time),
             tuple(reason["criterion"] for reason in why),
         )
+
+
+def _end(run: Simulation) -> float:
+    """Time in s at which the built-in controller has ended a walk and stood still.
+
+    A walk by velocity gets its last steps when it is told to stop: as many as it is allowed until it rests.
+    """
+    if run.velocities is None:
+        return run.end
+    timing = run.settings.timing
+    last_steps = STEPS_TO_REST * (timing.single_support + timing.double_support)
+    return run.velocities.times[-1] + last_steps + timing.end + timing.settle
 
 
 def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) -> FootholdResult:

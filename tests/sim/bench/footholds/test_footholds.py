@@ -136,6 +136,16 @@ def test_a_commanded_velocity_is_observed_and_judged():
     assert np.allclose(np.max(seen, axis=0), [trial.value, 0.0, 0.0])
 
 
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+def test_a_walk_by_velocity_has_the_time_to_come_to_rest(robot):
+    """It was cut off in its last steps, so that no policy could complete a trial."""
+    trial = next(t for t in TRIALS if t.kind == "velocity")
+    short = trial._replace(tables={"terrain": {"kind": "flat"}, "walk": {**trial.tables["walk"], "until": 3.0}})
+    found = run_trial(BASELINES["plantar"], short, robot)
+    assert "rest" not in found.failed
+    assert "stop" not in found.failed
+
+
 def test_files_that_are_no_policy_are_refused(tmp_path):
     assert callable(load_policy(EXAMPLE))
     with pytest.raises(InputError, match="no Python file"):
