@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,23 +99,6 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
             None if stuck is None else taxel_mask(layout, stuck, "mask 'stuck'").copy(),
             self.PLAIN[2] if options is None else instance(options, PerceptOptions, "options"),
         )
-
-    @classmethod
-    def summed(cls, layout: SoleLayout, reading: Reading, loads: NDArray[np.float64]) -> Self:
-        """Percept with known loads and its layout's threshold, unchecked.
-
-        Args:
-            layout: Sole, n taxels.
-            reading: Reading of its taxels.
-            loads: Wrench, contact area and CoP (9,) by `layout.kernel.loads_above`, an unshared array; closed to
-                writing.
-
-        Returns:
-            Percept.
-        """
-        percept = cls.__new__(cls)
-        percept._fill_summed(layout, reading, cls.PLAIN[2], loads)
-        return percept
 
     def __repr__(self) -> str:
         return f"Percept({_shown('percept_text', self)})"

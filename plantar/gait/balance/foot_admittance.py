@@ -54,9 +54,7 @@ class FootAdmittance:
     @property
     def acts(self) -> bool:
         """Whether any sole is corrected."""
-        left = self.corrections["left"]
-        right = self.corrections["right"]
-        return bool(left.roll or left.pitch or left.shift or right.roll or right.pitch or right.shift)
+        return bool(self.corrections["left"].acts() or self.corrections["right"].acts())
 
     def fade(self) -> None:
         """A tick without a wanted wrench: corrections go back to none."""

@@ -45,27 +45,19 @@ class ContactMemory:
             gap,
         )
         self._polygon: NDArray[np.float64] | None = _NO_POLYGON
-        self._time = -math.inf
 
     def lift(self) -> None:
         """Clear the contacts of a foot in the air."""
-        if self._time == -math.inf:
+        if self._cells.time == -math.inf:
             return
         self._cells.lift()
         self._polygon = _NO_POLYGON
-        self._time = -math.inf
 
     def update(self, reading: Reading, rotation: NDArray[np.float64], center_of_pressure: NDArray[np.float64]) -> None:
         """Add a sole's `reading`, dead taxels unloaded, at its estimated `rotation` to world (3, 3), with
         `center_of_pressure` (2,), sole frame, in m.
         """
-        cells = self._cells
-        time = reading.time
-        if time > self._time:
-            self._time = time
-            if cells.carry(reading.force, rotation):
-                self._polygon = None
-        if cells.turn(rotation, center_of_pressure):
+        if self._cells.follow(reading, rotation, center_of_pressure):
             self._polygon = None
 
     @property

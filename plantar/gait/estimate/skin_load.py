@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.estimate.ankle_sensor import SoleWrench
+from plantar.kernels.skin.percept_fields import unsaturated
 from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.sensing.clipping import unclipped_mean
@@ -23,8 +24,8 @@ def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
 
 def percept_to_its_limit(reading: Reading, layout: SoleLayout) -> Percept:
     """Returns the percept of a sole's `reading` on a `layout`, saturated as in `at_its_limit`, loads summed."""
-    loads = layout.kernel.unsaturated_loads(reading.force, layout.force_threshold, layout.force_limit)
-    return Percept(layout, at_its_limit(reading, layout)) if loads is None else Percept.summed(layout, reading, loads)
+    percept: Percept | None = unsaturated(Percept, layout, reading)
+    return Percept(layout, at_its_limit(reading, layout)) if percept is None else percept
 
 
 class SkinLoad:

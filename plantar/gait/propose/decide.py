@@ -8,5 +8,11 @@ from plantar.gait.propose.proposer import Proposer, Tick
 
 def decide(proposers: Sequence[Proposer], tick: Tick) -> PlanChange | None:
     """The change to apply, or None: one a tick, of the first `Priority`; among equals, of the first proposer."""
-    wanted = [(proposer.priority, change) for proposer in proposers if (change := proposer.propose(tick)) is not None]
-    return min(wanted, key=lambda pair: pair[0])[1] if wanted else None
+    first: Proposer | None = None
+    chosen: PlanChange | None = None
+    for proposer in proposers:
+        change = proposer.propose(tick)
+        if change is not None and (first is None or proposer.priority < first.priority):
+            first = proposer
+            chosen = change
+    return chosen

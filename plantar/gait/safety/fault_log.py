@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,14 +61,7 @@ class FaultLog:
             joints = len(sensors.joint_positions)
             if joints != self._joints:
                 self._begin(joints)
-            readings = sensors.readings
-            if type(readings) is dict:
-                left = getattr(readings.get("left"), "force", None)
-                right = getattr(readings.get("right"), "force", None)
-            else:
-                left = _force(readings, "left")
-                right = _force(readings, "right")
-            self._ring.add_tick(self._ticks * self._period, sensors, command, left, right)
+            self._ring.add_tick(self._ticks * self._period, sensors, command)
         except (AttributeError, TypeError):
             return
 
@@ -116,9 +109,3 @@ class FaultLog:
                 for channel, force in zip(skins.values(), (left, right), strict=True):
                     channel.write(time, force)
                 command.write(time, *places, stiffness, phase, step)
-
-
-def _force(readings: Any, side: Side) -> object:
-    """Forces of a side's reading as they are; None where there is none."""
-    reading = readings.get(side) if isinstance(readings, Mapping) else None
-    return getattr(reading, "force", None)

@@ -15,6 +15,7 @@ cdef class SoleAdmittance:
     cdef bint stands
     cdef double fz, tx, ty
     cpdef void fade(self) noexcept
+    cpdef bint acts(self) noexcept
     cpdef double turn(self, measured, wanted) except? -1.0
     cpdef void lift(self, double rate) noexcept
     cdef double _moved(self, double value, double rate, double largest) noexcept

@@ -48,6 +48,10 @@ class SoleAdmittance:
             self.pitch = 0.0
             self.shift = 0.0
 
+    def acts(self):
+        """Whether the sole is corrected."""
+        return self.roll != 0.0 or self.pitch != 0.0 or self.shift != 0.0
+
     def turn(self, measured, wanted):
         """Turn by a tick under load from the measured to the desired wrench (6,) in sole frame in N and N m.
 

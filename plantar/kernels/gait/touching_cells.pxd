@@ -2,6 +2,7 @@ cimport cython
 from ..base cimport pointers as memory
 from ..base cimport vectors
 from ..geometry cimport convex
+from ..skin.percept_fields cimport ReadingFields
 
 cdef double _INFINITE
 
@@ -12,7 +13,10 @@ cdef class TouchingCells:
     cdef double least_force, least_share, smoothing, gap
     cdef double[::1] mean
     cdef double[:, ::1] slope
+    cdef readonly double time
     cpdef void lift(self) noexcept
+    @cython.locals(changed=bint)
+    cpdef bint follow(self, ReadingFields reading, rotation, center_of_pressure) except -1
     @cython.locals(total=double, now=double, changed=bint)
     cpdef bint carry(self, force, rotation) except -1
     @cython.locals(changed=bint)

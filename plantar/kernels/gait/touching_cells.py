@@ -31,14 +31,24 @@ class TouchingCells:
         self.gap = gap
         self.mean = np.zeros(len(touches))
         self.slope = np.zeros((len(touches), 2))
+        self.time = -_INFINITE
 
     def lift(self):
         """Clear the contacts of a foot in the air."""
+        self.time = -_INFINITE
         for i in range(self.mean.shape[0]):
             self.mean[i] = 0.0
             self.slope[i, 0] = 0.0
             self.slope[i, 1] = 0.0
             self.touches[i] = 0
+
+    def follow(self, reading, rotation, center_of_pressure):
+        """`carry` a `plantar.Reading` that is new since `lift`, and `turn`; returns whether other cells touch."""
+        changed = False
+        if reading.time > self.time:
+            self.time = reading.time
+            changed = self.carry(reading.force, rotation)
+        return self.turn(rotation, center_of_pressure) or changed
 
     def carry(self, force, rotation):
         """Add a reading (n,) in N of a sole turned by `rotation` (3, 3) to the world; what is not finite counts as 0.

@@ -1,5 +1,7 @@
 """The last ticks' numbers, in memory that is used again and again."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ..base import memory
@@ -43,10 +45,11 @@ class TickRing:
                 row[into + k] = values[k]
             into += size
 
-    def add_tick(self, time, sensors, command, left, right):
+    def add_tick(self, time, sensors, command):
         """Keep a tick by a controller's `sensors` and `command`: stiffness, kind and step of the phase; encoders, gyro,
-        accelerometer, forces of the `left` and `right` sole, and targets of the CoM and both soles.
+        accelerometer, forces of the left and right sole, and targets of the CoM and both soles.
         """
+        readings = sensors.readings
         phase = command.phase
         feet = command.feet
         self.add(
@@ -58,8 +61,8 @@ class TickRing:
                 sensors.joint_positions,
                 sensors.gyro,
                 sensors.accelerometer,
-                left,
-                right,
+                _force(readings, "left"),
+                _force(readings, "right"),
                 command.com,
                 feet["left"].position,
                 feet["right"].position,
@@ -71,6 +74,12 @@ class TickRing:
         if self.count <= self.most:
             return self.rows[: self.count].copy()
         return np.roll(self.rows, -(self.count % self.most), axis=0)
+
+
+def _force(readings, side):
+    """Forces of a side's reading as they are; None where there is none."""
+    reading = readings.get(side) if isinstance(readings, (dict, Mapping)) else None
+    return getattr(reading, "force", None)
 
 
 def _numbers(field, size):

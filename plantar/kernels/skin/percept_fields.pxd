@@ -21,6 +21,9 @@ cdef class PerceptFields:
     cpdef _centroid(self)
     cpdef tuple _hull(self)
 
+@cython.locals(kernel=SoleKernel, percept=PerceptFields)
+cpdef unsaturated(kind, layout, reading)
+
 cdef double _LARGEST
 
 cdef class ReadingFields:

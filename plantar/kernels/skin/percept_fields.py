@@ -7,7 +7,7 @@ except ImportError:
 
 from ..base import memory, vectors
 
-__all__ = ["PerceptFields", "ReadingFields"]
+__all__ = ["PerceptFields", "ReadingFields", "unsaturated"]
 
 
 _INFINITE = float("inf")
@@ -103,6 +103,17 @@ class PerceptFields:
             memory.close(found[0])
             self._found = found
         return self._found
+
+
+def unsaturated(kind, layout, reading):
+    """Percept, of the class `kind`, of a sole's plain reading with its loads summed; None if a taxel is saturated."""
+    kernel = layout.kernel
+    loads = kernel.unsaturated_loads(reading.force, layout.force_threshold, layout.force_limit)
+    if loads is None:
+        return None
+    percept = kind.__new__(kind)
+    percept._fill_summed(layout, reading, kind.PLAIN[2], loads)
+    return percept
 
 
 _LARGEST = 1e300

@@ -55,7 +55,6 @@ INNER: frozenset[str] = frozenset(
         *(f"rotation.{name}" for name in ("sine_vector", "vector_from_rotation")),
         "reading.Reading.taken_over",
         "source_pose.SourcePose",  # made by the fit of a shoe, and by the reader of layout files, which checks it
-        "percept.Percept.summed",
         "leg_inertia.LegInertia.base_acceleration",
         *("wrench.wrench_in_frame", "contact.Contact", "contact.Contact.wrench_in_world"),
         *("link_skin.LinkWrench", "link_skin.link_wrenches", "net_wrench.NetWrench"),

@@ -48,6 +48,7 @@ def test_it_moves_as_numpy_would(seed):
             for foot in feet:
                 assert foot.turn(wrench(*measured), wrench(*wanted)) == off[0]
                 foot.lift(rate)
+        assert [foot.acts() for foot in feet] == 2 * [bool(correction(feet[0]).any())]
         np.testing.assert_allclose(correction(feet[0]), known, rtol=1e-12, atol=1e-15)
         assert np.array_equal(*map(correction, feet))
 
@@ -57,6 +58,7 @@ def test_what_fades_ends_at_none():
         foot = module.SoleAdmittance(PERIOD, SHARE, GAIN, BACK, RELEASE, LARGEST[0], LARGEST[2])
         foot.turn(wrench(300.0, 20.0, -15.0), wrench(300.0, 0.0, 0.0))
         before = correction(foot)
+        assert foot.acts()
         assert np.abs(before[:2]).min() > 1e-5
         foot.fade()
         np.testing.assert_allclose(correction(foot), (1.0 - RELEASE * PERIOD) * before)

@@ -1,6 +1,6 @@
 """The ring of the last ticks' numbers, against a list of all; both forms."""
 
-from types import SimpleNamespace
+from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -43,10 +43,18 @@ def test_a_tick_is_kept_by_what_was_measured_and_commanded(form):
     rng = np.random.default_rng(2)
     joints, gyro, accelerometer, left, right, com = (rng.normal(size=n) for n in (4, 3, 3, 5, 6, 3))
     feet = {side: SimpleNamespace(position=rng.normal(size=3)) for side in ("left", "right")}
-    sensors = SimpleNamespace(joint_positions=joints, gyro=gyro, accelerometer=accelerometer)
+    readings = {"left": SimpleNamespace(force=left), "right": SimpleNamespace(force=right)}
+    sensors = SimpleNamespace(joint_positions=joints, gyro=gyro, accelerometer=accelerometer, readings=readings)
     command = SimpleNamespace(com=com, feet=feet, stiffness=0.5, phase=SimpleNamespace(kind=2, step=7))
     ring = form.TickRing(3, (4, 3, 3, 5, 6, 3, 3, 3))
-    ring.add_tick(0.25, sensors, command, left, right)
+    ring.add_tick(0.25, sensors, command)
     places = feet["left"].position, feet["right"].position
     expected = np.concatenate([[0.25, 0.5, 2, 7], joints, gyro, accelerometer, left, right, com, *places])
     assert np.array_equal(ring.kept(), expected[None])
+    for lacking in (None, {}, {"left": None, "right": SimpleNamespace()}, [left, right]):
+        sensors.readings = lacking
+        ring.add_tick(0.5, sensors, command)
+        assert np.isnan(ring.kept()[-1][14:25]).all()
+    sensors.readings = MappingProxyType(readings)
+    ring.add_tick(0.75, sensors, command)
+    assert np.array_equal(ring.kept()[-1][4:], expected[4:])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from plantar import Reading
 from plantar.kernels import python_form
 from plantar.kernels.gait import touching_cells
 
@@ -39,6 +40,26 @@ def test_both_forms_are_the_formulas(seed):
             assert cell.carry(force, turn) == carried
             assert cell.turn(turn, cop) == (touches != before).any()
             np.testing.assert_array_equal(mask, touches)
+
+
+@pytest.mark.parametrize("module", [touching_cells, python_form("touching_cells")])
+def test_a_reading_is_added_once_until_the_foot_is_lifted(module):
+    mask = np.zeros(2, dtype=bool)
+    cells = module.TouchingCells(np.array([[0.0, 0.0], [0.1, 0.0]]), mask.view(np.uint8), LEAST, SHARE, 0.5, GAP)
+    level, cop = np.eye(3), np.zeros(2)
+    reading = Reading(1.0, np.array([9.0, 0.0]))
+    assert cells.follow(reading, level, cop)
+    assert mask.tolist() == [True, False]
+    assert not cells.follow(reading, level, cop)
+    other = Reading(1.0, np.array([9.0, 90.0]))
+    assert not cells.follow(other, level, cop)  # no later than the last one
+    assert cells.time == 1.0
+    cells.lift()
+    assert cells.time == -np.inf
+    assert cells.follow(other, level, cop)
+    tilted = Rotation.from_rotvec([0.0, -0.1, 0.0]).as_matrix()
+    assert cells.follow(other, tilted, cop)  # turned off the ground
+    assert mask.tolist() == [True, False]
 
 
 @pytest.mark.parametrize("module", [touching_cells, python_form("touching_cells")])

@@ -291,12 +291,12 @@ def test_interpreted_kernels_construct_the_same():
 from dataclasses import FrozenInstanceError
 import numpy as np
 from plantar import Percept, Reading, hex_layout, kernels
+from plantar.kernels.skin.percept_fields import unsaturated
 layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
 force = np.linspace(0.0, 20.0, len(layout))
-loads = layout.kernel.loads_above(force, layout.force_threshold, layout.force_limit)
 told = [kernels.compiled]
 for reading in (Reading(0.5, force), Reading.taken_over(0.5, force.copy())):
-    for percept in (Percept(layout, reading), Percept.summed(layout, reading, loads.copy())):
+    for percept in (Percept(layout, reading), unsaturated(Percept, layout, reading)):
         told += [percept.vertical_force, percept.wrench_in_sole.tolist(), percept.support_area, percept.reading.time]
         told += [percept.contact_area, percept.force_threshold, percept.centroid_in_sole.tolist()]
     try:
