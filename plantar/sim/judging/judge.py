@@ -210,10 +210,10 @@ class Judge:
     def physics_steps(self, drives: Setpoints, step: Callable[[], None]) -> PhysicsSteps | None:
         """Physics steps with their judge in one kernel, by what writes set-points and makes a step.
 
-        `look` takes in what it reports. None where others act in the scene, or the soles' contacts need more than
-        reading.
+        `look` takes in what it reports. For steps in which none of `actors` applies a force. None where the soles'
+        contacts need more than reading.
         """
-        if self.actors or self._contacts.sticks:
+        if self._contacts.sticks:
             return None
         self.feet = self._contacts.read()  # the same objects after each step
         pieces = None if self.pieces is None else self.pieces.loads

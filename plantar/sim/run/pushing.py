@@ -59,6 +59,15 @@ class Pusher:
         impulse = push.strength * np.array([*direction_of(push, seed), 0.0])
         self.shoves = (Shove(start, start + push.duration, impulse, smooth=False),)
 
+    def free_steps(self, world: World, most: int) -> int:
+        """How many of the next physics steps, `most` at most, no push acts in; 0 while one does, or is about to."""
+        if self.pushing:
+            return 0
+        if self._next >= len(self.shoves):
+            return most
+        left = (self.shoves[self._next].start - world.data.time) / world.period
+        return max(0, min(most, int(left) - 1))
+
     def apply(self, world: World) -> None:
         """Set the torso's external force for a physics step."""
         if self._next >= len(self.shoves) and not self.pushing:

@@ -124,9 +124,9 @@ class Simulation(Run):
         self.zmps = self.judges.zmps
 
     def _physics_steps(self) -> PhysicsSteps | None:
-        """Physics steps in one kernel; None where somebody pushes, touches or moves between them."""
+        """Physics steps in one kernel, while no push acts; None where a partner touches or the ground moves."""
         drives = self.servos.plain
-        if drives is None or self.pusher.shoves or self.world.moving_ground or self.touch is not None:
+        if drives is None or self.world.moving_ground or self.touch is not None:
             return None
         return self.judge.physics_steps(drives, self._physics_step())
 
@@ -231,11 +231,13 @@ class Simulation(Run):
     def advance(self, steps: int = 1) -> int:
         together = self._together
         if together is not None and self.servos.plain is not None:
-            steps = together.advance(steps)
-            if together.seen:
-                self.judge.look(together.seen)
-                check_stable(self.world.data.warning.number)
-            return steps
+            free = self.pusher.free_steps(self.world, steps) if self.pusher.shoves else steps
+            if free:
+                steps = together.advance(free)
+                if together.seen:
+                    self.judge.look(together.seen)
+                    check_stable(self.world.data.warning.number)
+                return steps
         self.servos.drive()
         if self.pusher.shoves:
             self.pusher.apply(self.world)

@@ -41,6 +41,30 @@ def test_a_push_by_a_velocity_goes_with_the_mass(world):
         assert float(np.linalg.norm(shove.impulse)) == pytest.approx(impulse)
 
 
+def test_steps_without_a_push_are_known_before(world):
+    shove = Push(impulse=20.0, step=1, duration=0.05)
+    pusher = Pusher(shove, SCHEDULE, 0)
+    start = pusher.shoves[0].start
+    rng = np.random.default_rng(1)
+    for _ in range(20):  # of times at which rounding may go either way
+        world.data.time = start - 10 * world.period + rng.normal(0.0, 1e-12)
+        free = pusher.free_steps(world, 50)
+        assert 7 <= free <= 9
+        for _ in range(free):
+            pusher.apply(world)
+            assert not pusher.pushing
+            world.data.time += world.period
+    assert pusher.free_steps(world, 3) == 0
+    begun = 0
+    while not pusher.applied or pusher.pushing:
+        begun += pusher.pushing
+        assert pusher.free_steps(world, 3) == 0
+        pusher.apply(world)
+        world.data.time += world.period
+    assert begun >= round(0.05 / world.period)
+    assert pusher.free_steps(world, 3) == 3
+
+
 def test_no_impulse_makes_no_push(world):
     pusher = Pusher(Push(), SCHEDULE, 0)
     world.data.time = 3.0

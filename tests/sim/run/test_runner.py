@@ -264,7 +264,10 @@ def test_a_run_looks_for_garbage_among_its_own_objects_only():
     assert done.returncode == 0, done.stderr
 
 
-def test_steps_in_one_kernel_are_those_made_one_by_one():
+@pytest.mark.parametrize(
+    ("scene", "settings"), [("stones", ["steps=2"]), ("balance", ["walk.settle=6", "push.count=1"])]
+)
+def test_steps_in_one_kernel_are_those_made_one_by_one(scene, settings):
     class ByOne(Simulation):
         def reset(self):
             super().reset()
@@ -279,10 +282,12 @@ def test_steps_in_one_kernel_are_those_made_one_by_one():
 
     ends = []
     for kind in (Simulation, ByOne, Kept):
-        run = kind(load_scene("stones", ["steps=2"]), 3)
+        run = kind(load_scene(scene, settings), 3)
         summary = run.run()
         for timed in ("wall_time_s", "real_time_factor", "control_us"):
             del summary[timed]
         ends.append((summary, run.world.data.qpos.tolist(), run.judge.margin_min))
     assert run.made == round(run.world.data.time / run.world.period)
     assert ends[0] == ends[1] == ends[2]
+    if run.pusher.shoves:
+        assert len(run.pusher.applied) == len(run.pusher.shoves)
