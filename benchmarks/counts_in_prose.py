@@ -5,7 +5,8 @@ A count stands between comments that name its rows and are not seen where the pa
     <!-- walks.csv: beam, h1 -->8 of 8<!-- . -->
 
 are the completed runs of the case `beam` on h1; without a robot, on all. `fallen` or `not completed` after the file's
-name count those. The command writes them anew from the rows; a test asks that nothing changes by it.
+name count those; a case of `blind_footholds` is a policy, a kind and its value. The command writes them anew from the
+rows; a test asks that nothing changes by it.
 """
 
 import re
@@ -25,6 +26,13 @@ def counted(rows: list[Row], what: str) -> int:
     return len(rows) - completed if what else completed
 
 
+def _latest(rows: list[Row]) -> list[Row]:
+    """The row that counts of each run; a policy's runs are of one commit."""
+    if rows and "policy" in rows[0]:
+        return [{**r, "case": f"{r['policy']} {r['kind']} {r['value']}"} for r in rows]
+    return latest(rows)
+
+
 def written(text: str, folder: Path = FOLDER) -> str:
     """The text with each of its counts as the rows have it.
 
@@ -34,7 +42,7 @@ def written(text: str, folder: Path = FOLDER) -> str:
 
     def count(found: re.Match[str]) -> str:
         opening, table, what, case, robot, closing = found.groups()
-        rows = latest(rows_of(folder / f"{table}.csv"))
+        rows = _latest(rows_of(folder / f"{table}.csv"))
         mine = [r for r in rows if r["case"] == case and robot in (None, r["robot"])]
         if not mine:
             raise ValueError(f"{table}.csv has no row of {case}{f' on {robot}' if robot else ''}")

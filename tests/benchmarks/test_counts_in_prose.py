@@ -32,6 +32,12 @@ def test_a_count_is_of_its_rows(tmp_path, rows, count):
     )
 
 
+def test_a_policys_rows_are_counted_by_trial(tmp_path):
+    rows = "own,h1,beam,0.4,0,True\nown,h1,beam,0.4,1,False\nown,h1,beam,0.2,0,True\n"
+    (tmp_path / "a.csv").write_text(f"policy,robot,kind,value,seed,completed\n{rows}")
+    assert "1 of 2" in written("<!-- a.csv: own beam 0.4 -->?<!-- . -->", tmp_path)
+
+
 def test_a_count_of_no_row_is_an_error(tmp_path):
     (tmp_path / "a.csv").write_text(ROWS)
     with pytest.raises(ValueError, match=r"a\.csv has no row of bridge on h1"):
