@@ -41,7 +41,7 @@ def pressed(shape: str, x: float, mass: float, foam: bool) -> tuple[int, float, 
     data = mujoco.MjData(model)
     body, options = ("slab", {"outward": (0, 0, 1)}) if x == 0.0 else ("arm", {"around": (1, 0, 0)})
     worn = Skins([Skin(body=body, **options).bind(model)])
-    skins: Any = FoamSkins(model, worn.body_skin, None, ["thing"]) if foam else worn
+    skins: Any = FoamSkins(model, worn.body_skin, ["thing"]) if foam else worn
     mujoco.mj_forward(model, data)
     below = mujoco.mj_geomDistance(model, data, model.geom("thing").id, 0 if x == 0.0 else 1, 5.0, None)
     data.qpos[-1] -= below

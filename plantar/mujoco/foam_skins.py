@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.arguments import instance
+from plantar.common.arguments import instance, integer, items
 from plantar.errors import InputError, RobotError
 from plantar.kernels.contacts.pressed_patch import load_block, load_parts
 from plantar.mujoco.bound_skin import SkinReading, reading_of_block
@@ -48,8 +48,8 @@ class FoamSkins:
         model: The world's; contacts of skinned links with obstacles are switched off in it, and obstacles touch all
             else that collides.
         skin: On links of the model: of `Skins.body_skin`, or of patches of one's own.
-        foam: What it is made of.
-        obstacles: Names or ids of the geoms that press; None for all that collide and are not of the skinned robots.
+        obstacles: Names or ids of the geoms that press. They pass through a skinned link where it has no taxels.
+        foam: What it is made of; None for `Foam()`.
         everything: Whether all rays are cast, for comparison; same readings.
 
     Attributes:
@@ -63,7 +63,8 @@ class FoamSkins:
         skipped: Rays not cast.
 
     Raises:
-        RobotError: If a link or obstacle is missing.
+        InputError: If obstacles are neither names nor ids.
+        RobotError: If a link or obstacle is missing, or is one of a skinned link.
         SceneError: If an obstacle is of a kind that rays do not meet.
 
     Example:
@@ -73,7 +74,7 @@ class FoamSkins:
         ...   <geom type="capsule" size=".04 .1" mass="1"/></body>
         ...   <body mocap="true" pos="0.08 0 0"><geom name="ball" size=".05"/></body></worldbody></mujoco>''')
         >>> skins = Skins([Skin(body="arm", around=(0, 0, 1)).bind(model)])
-        >>> foam = FoamSkins(model, skins.body_skin, Foam(stiffness=1e7), ["ball"])
+        >>> foam = FoamSkins(model, skins.body_skin, ["ball"], Foam(stiffness=1e7))
         >>> data = mujoco.MjData(model)
         >>> mujoco.mj_step1(model, data)
         >>> foam.press(data)
@@ -87,8 +88,8 @@ class FoamSkins:
         self,
         model: Any,
         skin: BodySkin,
+        obstacles: Sequence[int | str],
         foam: Foam | None = None,
-        obstacles: Sequence[int | str] | None = None,
         *,
         everything: bool = False,
     ) -> None:
@@ -97,7 +98,9 @@ class FoamSkins:
         self._everything = everything
         self._bodies = [_body(model, link) for link in skin.links]
         self._patches = [_ready(model, skin, i, self._bodies) for i in range(len(skin.patches))]
-        geoms = _others(model, self._bodies) if obstacles is None else [_geom(model, name) for name in obstacles]
+        if isinstance(obstacles, str):
+            raise InputError(f"obstacles is {obstacles!r}; expected a list of names or ids of geoms")
+        geoms = [_geom(model, name, self._bodies) for name in items(obstacles, "obstacles")]
         self._obstacles = [Obstacle(model, g) for g in geoms]
         _separate(model, self._bodies, [o.geom for o in self._obstacles])
         self._broad = _BroadPhase(model, self._patches, geoms)
@@ -321,15 +324,12 @@ def _body(model: Any, link: str) -> int:
     return body
 
 
-def _geom(model: Any, name: int | str) -> int:
-    return named_id(model, "geom", name) if isinstance(name, str) else int(name)
-
-
-def _others(model: Any, bodies: Sequence[int]) -> list[int]:
-    """Geoms that collide and are of no robot with skin."""
-    roots = np.unique(model.body_rootid[list(bodies)])
-    able = (model.geom_contype | model.geom_conaffinity) != 0
-    return np.flatnonzero(able & ~np.isin(model.body_rootid[model.geom_bodyid], roots)).tolist()
+def _geom(model: Any, name: int | str, skinned: Sequence[int]) -> int:
+    geom = named_id(model, "geom", name) if isinstance(name, str) else integer(name, "obstacle", 0, model.ngeom - 1)
+    body = int(model.geom_bodyid[geom])
+    if body in skinned:
+        raise RobotError(f"obstacle '{name}' is a shape of '{model.body(body).name}', which has skin; allowed: others")
+    return geom
 
 
 def _separate(model: Any, skinned: list[int], obstacles: list[int]) -> None:

@@ -46,7 +46,7 @@ class Companion(Run):
         body_skin = skin_from_tables(alone, machine.patches, f"machine '{machine.name}'")
         obstacles = np.flatnonzero(self.world.model.geom_group == OBSTACLE_GROUP).tolist()
         sensing = scene.skin
-        self.skin = FoamSkins(self.world.model, body_skin, sensing.foam, obstacles, everything=sensing.everything)
+        self.skin = FoamSkins(self.world.model, body_skin, obstacles, sensing.foam, everything=sensing.everything)
         self._electronics = SkinElectronics(body_skin, sensing, seed)
         _misjudge(alone, control.model_error, seed)
         self.robot = MujocoDynamics(alone)

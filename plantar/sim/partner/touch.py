@@ -65,7 +65,7 @@ class Touch:
         self.partners = tuple(partners)
         geoms = [geom for partner in self.partners for geom in partner.bind(world)]
         material = skin_material(world.body)
-        self.sensor = FoamSkins(world.model, skin, material.foam, geoms)
+        self.sensor = FoamSkins(world.model, skin, geoms, material.foam)
         self._electronics = SkinElectronics(skin, material, seed)
         self._near = True
 

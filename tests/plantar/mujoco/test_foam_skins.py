@@ -36,7 +36,7 @@ PERFECT = {"noise": 0.0, "gain_error": 0.0, "bits": 24}
 def world(shape, place, thing="<freejoint/>", slab="", everything=False):
     model = mujoco.MjModel.from_xml_string(WORLD.format(shape=shape, place=place, thing=thing, slab=slab))
     skin = skin_from_tables(model, [TOP, BALL], "test")
-    return model, mujoco.MjData(model), FoamSkins(model, skin, None, things(model), everything=everything)
+    return model, mujoco.MjData(model), FoamSkins(model, skin, things(model), everything=everything)
 
 
 def things(model: Any) -> list[int]:
@@ -159,7 +159,7 @@ def test_a_link_without_skin_touches_obstacles_by_contacts():
     model = mujoco.MjModel.from_xml_string(xml)
     data = mujoco.MjData(model)
     skin = skin_from_tables(model, [BALL], "test")
-    run(model, data, FoamSkins(model, skin, None, things(model)), 500)
+    run(model, data, FoamSkins(model, skin, things(model)), 500)
     assert data.ncon == 1
     assert data.body("thing").xpos[2] == pytest.approx(0.66, abs=0.003)
 
@@ -184,7 +184,7 @@ def test_a_world_without_the_link_is_refused():
     model, _data, sensor = world(SHAPES[0], "0 0 .65")
     other = mujoco.MjModel.from_xml_string("<mujoco/>")
     with pytest.raises(RobotError, match="the world has no link 'arm'"):
-        FoamSkins(other, sensor.body_skin)
+        FoamSkins(other, sensor.body_skin, [])
     assert model.nbody == 4
 
 
@@ -228,7 +228,7 @@ def test_readings_are_those_of_any_skin_and_add_up(shape):
 def test_without_friction_the_taxels_carry_the_wrench():
     model, _, sensor = world(SHAPES[1], "0.05 0.02 .659", thing="")
     data = mujoco.MjData(model)
-    smooth = FoamSkins(model, sensor.body_skin, Foam(friction=0.0), ["thing"])
+    smooth = FoamSkins(model, sensor.body_skin, ["thing"], Foam(friction=0.0))
     run(model, data, smooth, 1)
     readings = {p.name: r for p, r in zip(smooth.body_skin.patches, smooth(data), strict=True)}
     assert readings["top"].force.sum() > 0.1
@@ -248,7 +248,7 @@ def test_a_skin_of_anybody_is_worn_as_foam():
     data = mujoco.MjData(model)
     mujoco.mj_step(model, data, 500)
     by_contacts = top(data)[0]
-    foam = FoamSkins(model, top.body_skin, Foam(), ["lid"])
+    foam = FoamSkins(model, top.body_skin, ["lid"])
     data = mujoco.MjData(model)
     run(model, data, foam, 500)
     (by_foam,) = foam(data)
@@ -272,7 +272,7 @@ def test_a_height_field_presses_as_the_box_of_its_height():
         if "hfield" not in shape:
             model.geom("ground").pos[2] = 0.05
         skin = Skins([Skin(body="foot", outward=(0, 0, -1)).bind(model)]).body_skin
-        foam = FoamSkins(model, skin)
+        foam = FoamSkins(model, skin, ["ground"])
         data = mujoco.MjData(model)
         run(model, data, foam, 1)
         found.append(foam.depth)
@@ -286,13 +286,17 @@ def test_what_is_wrong_is_refused_in_one_line():
     with pytest.raises(InputError, match=r"call press\(data\) after mj_step1"):
         sensor(data)
     with pytest.raises(RobotError, match="no geom named 'thin'; did you mean thing"):
-        FoamSkins(model, skin, None, ["thin"])
+        FoamSkins(model, skin, ["thin"])
+    with pytest.raises(RobotError, match="obstacle 'top' is a shape of 'slab', which has skin"):
+        FoamSkins(model, skin, ["top"])
+    with pytest.raises(InputError, match="obstacles"):
+        FoamSkins(model, skin, "thing")
     with pytest.raises(InputError, match="stiffness"):
         Foam(stiffness=0.0)
     with pytest.raises(InputError, match=r"friction is -1\.0; allowed: 0 or more"):
         Foam(friction=-1.0)
     with pytest.raises(InputError, match="skin"):
-        FoamSkins(model, [skin])  # type: ignore[arg-type]
+        FoamSkins(model, [skin], ["thing"])  # type: ignore[arg-type]
     assert isinstance(skin, BodySkin)
 
 
@@ -305,4 +309,4 @@ def test_an_obstacle_of_a_kind_without_a_surface_is_refused():
         pytest.skip("this MuJoCo has no such geom without a plugin")
     skin = Skins([Skin(body="b", outward=(0, 0, 1)).bind(model)]).body_skin
     with pytest.raises(SceneError, match="of a kind that skin cannot measure"):
-        FoamSkins(model, skin)
+        FoamSkins(model, skin, ["sdf"])

@@ -135,7 +135,7 @@ def test_skin_is_laid_on_geoms_of_any_group_and_sees_obstacles_alone(tmp_path, g
     model = spec.compile()
     skin = skin_from_tables(found.spec().compile(), found.patches, found.name)
     data = mujoco.MjData(model)
-    sensor = FoamSkins(model, skin, None, np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist())
+    sensor = FoamSkins(model, skin, np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist())
     mujoco.mj_forward(model, data)
     sensor.press(data)
     assert len(skin) > 20
