@@ -26,6 +26,10 @@ _LARGEST_YIELD = 0.00824  # chosen: leg/beat at which a foot that has touched gi
 _LARGEST_CHANGE = 2.0
 _LARGEST_TURN_CHANGE = 2.75  # chosen: rad/beat^2 of its turn, likewise
 _SOONER = 0.45  # chosen: share of its time in which a hasty descent comes to the ground sooner
+# chosen: of `reserve` before weight is put on a sole at which one that sees its ground late is there: 60 ms on h1, so
+# that its touch is over
+_BEFORE = 0.5
+_SHORTEST = 0.6  # measured: of `damping` that its time constant is at least: 36 ms on h1, the lag of drives
 _LEVEL = np.zeros(3)
 # derived: tangent of the slope that level ground may seem to have; 2 mm of noise, a mean of five, over half a sole, and
 # twice
@@ -150,6 +154,9 @@ class SwingCompliance:
         damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
         if g.damping > reserve and left > g.margin:  # quick steps: it has to be there in time
             damping = min(damping, max(reserve, time_left / math.log(left / g.margin)))
+        elif left > g.margin:  # so has one that sees its ground late: it is `margin` off it by then
+            there = (time_left - _BEFORE * reserve) / math.log(left / g.margin)
+            damping = max(min(damping, there), _SHORTEST * g.damping)
         damping *= quick
         rise = -_LARGEST_RISE * self._speed_unit
         wanted = left / damping + crawl if left > 0.0 else max(rise, left / g.damping)
