@@ -53,7 +53,8 @@ def draw(rows: Sequence[tuple[float, ...]], half_width: float) -> Any:
     time, planned, dcm, wanted, true, *feet = table.T
     figure, axis = new_figure(9.0, 4.5)
     for side, y in zip(SIDES, feet, strict=True):
-        axis.fill_between(time, 1e3 * (y - half_width), 1e3 * (y + half_width), alpha=0.15, label=f"{side} sole, loaded")
+        edges = 1e3 * (y - half_width), 1e3 * (y + half_width)
+        axis.fill_between(time, *edges, alpha=0.15, label=f"{side} sole, loaded")
     for values, style, label in (
         (planned, "k:", "DCM, planned"),
         (dcm, "k-", "DCM, estimated"),
