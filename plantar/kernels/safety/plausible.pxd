@@ -3,7 +3,7 @@ from ..base cimport pointers as memory
 
 from libc cimport math
 
-cdef double _INFINITE, _FAST, _TURNED, _SPIN, _SHOCK
+cdef double _INFINITE, _NONE, _FAST, _TURNED, _SPIN, _SHOCK
 
 cpdef bint are_finite(joints, gyro, accelerometer) except -1
 cdef bint _finite(array) except -1
@@ -28,9 +28,10 @@ cdef class BodyCheck:
     @cython.locals(
         steps=cython.p_double, n=int, i=int, jumped=int, jump=double, value=double, spin=double, shock=double,
         far=int, same=bint, still=bint, passed=int, change=double,
-        missing=bint
+        missing=bint, caught_up=bint
     )
     cpdef int check(self, joints, gyro, accelerometer, int ticks=*) except -1
+    cpdef int forget(self, int joint) except -1
     @cython.locals(confirmed=bint)
     cdef bint _has_jumped(self, int joint, double angle, double before) noexcept
 
@@ -38,7 +39,7 @@ cdef class BodyCheck:
 cdef class SoleCheck:
     cdef double weight, carried
     cdef readonly double left, right
-    cdef readonly int left_same, right_same
+    cdef readonly int left_same, right_same, dead
     cdef bint steady
     cdef readonly bint swapped
     @cython.locals(one=double, other=double)
@@ -46,6 +47,8 @@ cdef class SoleCheck:
     cpdef void skip(self) noexcept
     @cython.locals(new_left=double, new_right=double, old_left=double, old_right=double, near=double, anew=bint)
     cpdef int update(self, left, int left_count, right, int right_count) except -2
+    @cython.locals(i=int, total=double, value=double)
+    cdef double _total(self, double* force, int count) noexcept
 
 @cython.final
 cdef class TargetMoves:
@@ -57,5 +60,5 @@ cdef class TargetMoves:
     ) except *
     @cython.locals(near=bint, i=int)
     cdef bint _near(self, double* kept, int begin, double* now, int count, double most) noexcept
-@cython.locals(total=double)
-cdef double _total(double* force, int count) noexcept
+    @cython.locals(i=int, way=double, change=double)
+    cdef bint _goes(self, double* kept, int begin, double* now, double most) noexcept

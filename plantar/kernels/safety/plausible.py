@@ -9,6 +9,7 @@ from ..base import memory
 __all__ = ["BodyCheck", "SoleCheck", "TargetMoves", "are_finite", "away_from_feet", "height_of_upright"]
 
 _INFINITE = float("inf")
+_NONE = float("nan")
 # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz; chosen: ten times the speed limits of h1
 _FAST = 0.25
 # rad: beyond, no joint of a leg has an angle; chosen: almost two turns; an encoder in degrees or counts is beyond at
@@ -132,9 +133,14 @@ class BodyCheck:
             value = q[i] - kept[i] if self.begun else 0.0
             # A joint that was stuck catches up; several that jump together moved, as at an impact.
             change = value - steps[i] * passed
-            if math.fabs(change) > self.slip * passed and steps[i] != 0.0:
-                jumped, jump = (i, change) if jumped == -1 else (n, 0.0)
-            steps[i] = value / passed
+            caught_up = False
+            if math.fabs(change) > self.slip * passed and value != 0.0:  # one that gets stuck stays where it is
+                if steps[i] != 0.0:
+                    jumped, jump = (i, change) if jumped == -1 else (n, 0.0)
+                else:
+                    caught_up = True
+            # What a joint catches up in a tick is no speed to compare the next one with.
+            steps[i] = 0.0 if caught_up else value / passed
             kept[i] = q[i]
         if 0 <= jumped < n:
             self.slipped = True
@@ -150,6 +156,12 @@ class BodyCheck:
             found = 4
         return found
 
+    def forget(self, joint):
+        """The next angle of a joint comes from elsewhere: it is not compared with the last one."""
+        kept = memory.room(self.kept)
+        kept[joint] = _NONE
+        return 0
+
     def _has_jumped(self, joint, angle, before):
         """Whether the one angle that is far from `before` was there a tick ago, too, and did not turn its sign."""
         if joint != self.far:
@@ -163,9 +175,9 @@ class BodyCheck:
 class SoleCheck:
     """Plausibility of forces on the soles of a robot of a weight in N, tick by tick.
 
-    `carried`: force in N on both that a robot on its feet does not lack; `left`: force in N on left sole, of taxels
-    that report one; `right` likewise; `left_same`: ticks without a change of `left`; `right_same` likewise; `swapped`:
-    whether soles have exchanged their reports.
+    `carried`: force in N on both that a robot on its feet does not lack; `dead`: taxels of both without a number;
+    `left`: force in N on left sole, of taxels that report one; `right` likewise; `left_same`: ticks without a change of
+    `left`; `right_same` likewise; `swapped`: whether soles have exchanged their reports.
     """
 
     def __init__(self, weight, carried=0.0):
@@ -175,6 +187,7 @@ class SoleCheck:
         self.right = -1.0
         self.left_same = 0
         self.right_same = 0
+        self.dead = 0
         self.steady = False
         self.swapped = False
 
@@ -197,8 +210,9 @@ class SoleCheck:
 
         Returns 1 where the soles are wired right, both report anew and they carry the robot, else 0.
         """
-        new_left = _total(memory.values(left), left_count)
-        new_right = _total(memory.values(right), right_count)
+        self.dead = 0
+        new_left = self._total(memory.values(left), left_count)
+        new_right = self._total(memory.values(right), right_count)
         if self.swapped:
             new_left, new_right = new_right, new_left
         old_left = self.left
@@ -224,12 +238,23 @@ class SoleCheck:
         anew = self.left_same == 0 and self.right_same == 0 and not self.swapped
         return 1 if anew and new_left + new_right > self.carried else 0
 
+    def _total(self, force, count):
+        """Sum of the forces that are numbers; the others are dead."""
+        total = 0.0
+        for i in range(count):
+            value = force[i]
+            if value == value:
+                total += value
+            else:
+                self.dead += 1
+        return total
+
 
 class TargetMoves:
     """Compares a command's targets with the last one's.
 
-    `com`: largest change of the CoM's coordinates in a tick in m; `foot`: of a sole's; `turn`: of an entry of a
-    rotation; `force`: of a foot's force in N.
+    `com`: largest way of the CoM in a tick in m; `foot`: of a sole; `turn`: largest change of an entry of a rotation;
+    `force`: of a foot's force in N.
     """
 
     def __init__(self, com, foot, turn, force):
@@ -246,12 +271,12 @@ class TargetMoves:
         N.
         """
         kept = memory.room(self.kept)
-        near = self._near(kept, 0, memory.values(com), 3, self.com)
+        near = self._goes(kept, 0, memory.values(com), self.com)
         near &= self._near(kept, 3, memory.values(torso), 9, self.turn)
-        near &= self._near(kept, 12, memory.values(left), 3, self.foot)
+        near &= self._goes(kept, 12, memory.values(left), self.foot)
         near &= self._near(kept, 15, memory.values(left_turn), 9, self.turn)
         near &= self._near(kept, 24, memory.values(left_force), 3, self.force)
-        near &= self._near(kept, 27, memory.values(right), 3, self.foot)
+        near &= self._goes(kept, 27, memory.values(right), self.foot)
         near &= self._near(kept, 30, memory.values(right_turn), 9, self.turn)
         near &= self._near(kept, 39, memory.values(right_force), 3, self.force)
         return near
@@ -264,6 +289,15 @@ class TargetMoves:
                 near = False
             kept[begin + i] = now[i]
         return near
+
+    def _goes(self, kept, begin, now, most):
+        """Whether a vector is within a limit from the kept one, which it becomes."""
+        way = 0.0
+        for i in range(3):
+            change = now[i] - kept[begin + i]
+            way += change * change
+            kept[begin + i] = now[i]
+        return way <= most * most
 
 
 def away_from_feet(com, left, right):
@@ -281,12 +315,3 @@ def height_of_upright(rotation, com, left, right, least):
     if memory.values(rotation)[8] < least:
         return -_INFINITE
     return memory.values(com)[2] - min(memory.values(left)[2], memory.values(right)[2])
-
-
-def _total(force, count):
-    total = 0.0
-    for i in range(count):
-        value = force[i]
-        if value == value:
-            total += value
-    return total
