@@ -104,6 +104,8 @@ class Watched:
                 reading = run.sensors.read_body()
                 command = run.controller.step(reading if change is None else change(reading))
                 self.angles = run.servos.command(command)
+                if run.controller.shell is not None:
+                    run.controller.shell.commanded = self.angles
                 self._measure(command)
             elif step == 0:  # drives hold where the last tick left them
                 run.servos.follow(self.angles, run.legs.torques.copy())

@@ -19,11 +19,11 @@ from plantar.gait.safety.bring_up.bring_up import BringUp
 from plantar.gait.safety.fall_check import FROZEN, FallCheck
 from plantar.gait.safety.fault_log import FaultLog
 from plantar.gait.safety.safe_stop import SITS, SafeStop
+from plantar.gait.safety.supervision import Supervision, presses_flat
 from plantar.gait.safety.target_limits import TargetLimits
 from plantar.gait.safety.taxel_check import TaxelCheck
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck, height_of_upright
 from plantar.kernels.safety.tick_clock import TickClock
-from plantar.kernels.safety.tracking import TrackingCheck
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.reading import Reading
@@ -37,7 +37,6 @@ _LATE = 0.15  # chosen: s of times that cannot be taken, until the state is "lat
 _UNLOADED = 0.3
 _WEIGHTLESS = 0.04  # chosen: 40 ms: impacts unload a foot for less
 _ROLLED = 0.06  # measured: rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
-_FLAT = 0.5  # derived: spread of the load of a flat sole, of that of an even one; a row of taxels has less than 0.3
 _FALLEN = 0.5  # derived: cosine of the trunk's tilt, and share of its height, below which a robot has fallen
 _LANDING = 0.15  # chosen: s of double support within which a foot comes down that lands late
 _EMPTY = 0.05  # chosen: weight on both soles of a robot that stands on both feet, below which both are silent
@@ -46,10 +45,6 @@ _UNKNOWN = 2.0
 _STALLED = 0.1  # chosen: s by which a tick comes late, and is noted; twenty ticks
 _OFTEN = 0.3  # chosen: missed ticks of each, in the mean of 20
 _AGAIN = 2.0  # chosen: s in which what is noted is not noted again; a log alone depends on it
-# measured: rad by which a joint misses its target; with a quarter of the drives' stiffness knees miss it by 0.3
-_OFF = 0.5
-_OFF_FOR = 0.015  # chosen: s after which it is off; three ticks
-_MOST_OFF = 2  # chosen: joints whose encoders fail at a time; more are moved from outside, as by a blow
 # What the soles' check returns of those that it cannot take as they are, and of those that carry the robot
 _UNREAD = -1  # nature: a code
 _CARRY = 1  # nature: a code
@@ -127,8 +122,9 @@ class SafetyShell:
         self._empty = 0
         self._unknown = 0
         self._carried = False
-        self._tracking: TrackingCheck | None = None
-        self._off = 0
+        self._supervision = Supervision(layouts, mass, period, self._note)
+        self._reported = 0.0
+        self._dead = 0
         self._asked: tuple[str, str] | None = None
         self._beat: float | None = None
         self._longest_beat = math.inf
@@ -165,9 +161,13 @@ class SafetyShell:
             reported = math.nan
         time = self._clock.time_of(reported)
         late = self._clock.late
+        self._reported = reported
         if late:
             self._soles.skip()
+            self._supervision.skip()
         self._missed += 0.05 * (late - self._missed)  # derived: the mean of 20
+        if self._clock.jumped:
+            self._supervision.restart_clock()
         if self._clock.jumped or self._clock.odd or self._missed > _OFTEN:
             self._note_clock(self._clock.jumped)
         try:
@@ -193,6 +193,13 @@ class SafetyShell:
         if time - self._noted.get(kind, -math.inf) > _AGAIN:
             self.log.note(text)
         self._noted[kind] = time
+
+    def _note_dead(self) -> None:
+        """Log that more taxels have no number than before, those that were left out not counted."""
+        dead = self._soles.dead - self._taxels.count
+        if dead > self._dead and self._begun:
+            self._note("dead", f"{dead} taxels without a number, {self._dead} before")
+        self._dead = dead
 
     def _note_clock(self, jumped: float) -> None:
         """Log a time that is not the one that was expected."""
@@ -230,7 +237,17 @@ class SafetyShell:
         self.state = None
         if self._clock.odd * self._period > _LATE:
             return self._in_state("late", "times that cannot be used")
-        sensors = self._with_targets(sensors)
+        if (
+            sensors is None
+            or sensors.joint_positions is None
+            or sensors.gyro is None
+            or sensors.accelerometer is None
+            or sensors.readings is None
+        ):
+            self.reason = "angles, IMU or soles missing"
+            return self._bridge(time)
+        if self.commanded is not None:
+            sensors = self._supervision.followed(sensors, self.commanded, self._body)
         problem = self._problem(sensors)
         if problem:
             self.reason = _PROBLEMS[problem]
@@ -266,24 +283,6 @@ class SafetyShell:
             return self._in_state("limp", "neither IMU nor soles show whether it stands")
         return self._held()
 
-    def _with_targets(self, sensors: Sensors) -> Sensors:
-        """Sensors with the commanded angle of a joint whose encoder does not follow it."""
-        commanded = self.commanded
-        if commanded is None or len(sensors.joint_positions) != len(commanded):
-            return sensors
-        if self._tracking is None:
-            self._tracking = TrackingCheck(len(commanded), max(1, round(_OFF_FOR / self._period)), _OFF)
-        count = self._tracking.update(sensors.joint_positions, commanded)
-        if count != self._off:
-            self._off = count
-            if count:
-                which = ", ".join(map(str, np.flatnonzero(self._tracking.off)))
-                self.log.note(f"joints that do not follow their targets, counted from 0: {which}")
-        if not 0 < count <= _MOST_OFF:
-            return sensors
-        angles = np.where(self._tracking.off > 0.0, commanded, sensors.joint_positions)
-        return sensors.changed(joint_positions=angles)
-
     def _with_slips(self, body: BodyCheck, sensors: Sensors) -> Sensors:
         """Sensors without the jumps of encoders."""
         if body.missing:
@@ -310,10 +309,18 @@ class SafetyShell:
         command = self._tick(sensors)
         self._sound = sensors
         self._silent = 0
+        if self._lost is None and not (self._body is not None and self._body.missing):
+            self._supervision.compare(sensors, command, self._soles, self._reported)
+        else:
+            self._supervision.skip()
+        if self._soles.dead != self._dead:
+            self._note_dead()
         if not self._begun:
             self._begun = True
             if self.bring_up is None:
                 return command
+        if self._supervision.grave:
+            return self._in_state("blind", self._supervision.grave)
         if self._is_contradicted(command, sensors.readings):
             return self._in_state("blind", "the standing sole turns, by encoders and IMU, but presses as a flat one")
         return self._limits.limited(self._last, command)
@@ -336,11 +343,7 @@ class SafetyShell:
         y = y - self._landed[1]
         if math.hypot(x, y) <= _ROLLED:
             return False
-        along = self._positions[stance] @ (rotation.T @ np.array([x, y, 0.0]))
-        load = np.maximum(np.nan_to_num(readings[stance].force), 0.0)
-        # nature: floating point: 0 / 0 is 0
-        spread = float(load @ (along - load @ along / max(load.sum(), 1e-9)) ** 2) / max(float(load.sum()), 1e-9)
-        return spread > (_FLAT * float(along.std())) ** 2
+        return presses_flat(self._positions[stance], readings[stance].force, rotation, (x, y))
 
     def _bridge(self, time: float) -> Command:
         """A tick without usable reading: on with the last briefly, then blind."""
@@ -364,9 +367,16 @@ class SafetyShell:
         if self._body is None:
             self._joints = len(joints) if self._joints is None else self._joints
             self._body = BodyCheck(self._joints, self._stuck, max(_SLIP, _JERK * self._period**2))
-        found = self._body.check(joints, gyro, accelerometer, 1 + self._clock.late)
+        body = self._body
+        found = body.check(joints, gyro, accelerometer, 1 + self._clock.late)
+        stands = self._last.phase.kind == PhaseKind.STANDING
+        repeated = self._supervision.repeated
+        if body.imu_same == repeated:
+            self._note("repeated", "gyro or accelerometer repeats its last reading")
+        if body.joints_same == repeated and not stands:
+            self._note("repeated", "encoders repeat their last reading")
         # nature: a code of the check, from which nothing that came can be
-        return found if found < 3 or self._last.phase.kind != PhaseKind.STANDING else 0
+        return found if found < 3 or not stands else 0
 
     def _readings(self, sensors: Sensors, time: float) -> Readings | None:
         """Each sole's reading under its side; a silent one follows from the other."""

@@ -18,7 +18,7 @@ class ProximitySampling:
         self.skipped = 0
 
     def skip(self):
-        """A sample without a measurement."""
+        """A sample that nothing is measured at."""
         self.noise.advance()
         self.skipped += self.count
 

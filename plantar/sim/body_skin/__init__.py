@@ -1,1 +1,1 @@
-"""Skin on machines and robots: where its taxels are, and what its electronics measure."""
+"""Skin anywhere on a body: its taxels, what presses, what they measure."""

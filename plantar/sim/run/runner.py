@@ -131,7 +131,7 @@ class Simulation(Run):
         return self.judge.physics_steps(drives, self._physics_step())
 
     def _physics_step(self) -> Callable[[], None]:
-        """`step_physics`, without a call of Python unless a subclass does more."""
+        """`step_physics`, without a call of Python where nobody does more."""
         usual = type(self).step_physics is Simulation.step_physics
         return partial(mujoco.mj_step, self.world.model, self.world.data) if usual else self.step_physics
 
@@ -223,6 +223,8 @@ class Simulation(Run):
         start = clock.perf_counter()
         command = self.controller.step(reading)
         joints = self.servos.command(command)
+        if self.controller.shell is not None:
+            self.controller.shell.commanded = joints
         used = 1e6 * (clock.perf_counter() - start)
         self._tick = reading, command, joints
         self.skipped["percept_members"] += self.compute_rest(command, self._everything)

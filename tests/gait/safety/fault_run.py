@@ -56,7 +56,9 @@ def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True)
             last = command
             if state is None and controller.safe_state is not None:
                 state, after = controller.safe_state, now - _BEGIN
-            servos.command(command)
+            angles = servos.command(command)
+            if shell:
+                controller.shell.commanded = angles
         servos.drive()
         mujoco.mj_step(world.model, world.data)
     return FaultRun(jump, state, after, bool(world.data.subtree_com[world.torso, 2] > 0.6))

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from plantar.kernels.safety.tracking import TrackingCheck
 from plantar.recordings.recording import read_mcap
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
@@ -96,32 +95,23 @@ def test_the_log_holds_two_seconds_before_each_fault(walk, tmp_path):
 
 def test_an_encoder_that_does_not_follow_is_replaced_by_its_target(walk):
     shell = walk.controller.shell
-    shell.commanded = walk.legs.joints
-    assert walked(walk, 0.0, 3.0) is not None
+    drives = walk.servos.command
+
+    def given(command):
+        shell.commanded = drives(command)
+
+    walk.servos.command = given
+    assert walked(walk, 0.0, 4.0) is not None
     assert shell.log.faults == []
 
-    def off(sensors):
+    def off(sensors):  # it drifts, as one that jumps has its jump taken off
         angles = sensors.joint_positions.copy()
-        angles[3] += 0.6
+        angles[3] += 0.3 * (sensors.time - 4.0)
         return sensors.changed(joint_positions=angles)
 
-    walked(walk, 3.0, 6.0, change=off)
+    walked(walk, 4.0, 7.0, change=off)
     assert walk.controller.safe_state is None
     assert upright(walk) > 0.95
     words = [fault.text for fault in shell.log.faults]
-    assert words[0] == "a joint angle that no robot has"  # bridged until it is confirmed
-    assert "joints that do not follow their targets, counted from 0: 3" in words
-
-
-def test_targets_that_never_move_are_not_compared():
-    check = TrackingCheck(2, 3, 0.4)
-    for k in range(50):
-        assert check.update(np.array([0.01 * k, 0.0]), np.zeros(2)) == 0
-
-
-def test_a_joint_that_comes_back_to_its_target_is_used_again():
-    check = TrackingCheck(1, 3, 0.4)
-    found = [check.update(np.array([k + (0.5 if 30 <= k < 40 else 0.0)]), np.array([float(k)])) for k in range(80)]
-    assert found[32] == 1
-    assert not any(found[:32])
-    assert found[-1] == 0
+    assert words[0] == "joints that do not follow their targets, counted from 0: 3"
+    assert shell.log.faults[0].time < 4.3

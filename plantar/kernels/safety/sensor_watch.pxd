@@ -1,0 +1,40 @@
+cimport cython
+from ..base cimport pointers as memory
+
+from libc cimport math
+
+cdef double _GRAVITY, _LEAST_PULL, _CARRIES, _MOST_JITTER
+
+@cython.final
+cdef class SensorWatch:
+    cdef int joints, window, mean, short, left, right
+    cdef Py_ssize_t ticks
+    cdef double mass, period
+    cdef bint walked
+    cdef double share, least_acceleration, least_turn, least_load, first_load
+    cdef double gyro_noise, encoder_noise, noisy
+    cdef object places, turns, loads, kept
+    cdef double speed_x, speed_y, way_x, way_y, sum_load, sum_pull, sum_gyro, sum_joints
+    cdef double largest_acceleration, recent_acceleration, largest_turn, recent_turn, largest_more, recent_more
+    cdef double largest_less, recent_less
+    cdef readonly double acceleration, turn, turn_x, turn_y, load
+    cdef readonly bint turns_right
+    cpdef void skip(self) noexcept
+    cpdef void end_support(self) noexcept
+    @cython.locals(found=int, least=double, pull=double, a=cython.p_double, turn=cython.p_double)
+    cpdef int update(
+        self, joints, gyro, accelerometer, position, rotation, double left_load, double right_load, left, right
+    ) except -1
+    @cython.locals(n=int, i=int, many=double, spread=double, at=Py_ssize_t, ticks=Py_ssize_t, found=int)
+    cdef int _noise(self, double* q, double* w) except -1
+    @cython.locals(
+        dt=double, window=int, mean=int, size=int, ticks=Py_ssize_t, at=Py_ssize_t, near=Py_ssize_t, far=Py_ssize_t,
+        now_x=double, now_y=double, share=double, dx=double, dy=double
+    )
+    cdef void _accelerate(self, double* x, double* turn, double* a) except *
+    @cython.locals(short=int, ticks=Py_ssize_t, at=Py_ssize_t)
+    cdef void _weigh(self, double load, double pull) except *
+    @cython.locals(window=int, at=Py_ssize_t, carried=int, x=double, y=double)
+    cdef void _tilt(self, double* left, double* right) except *
+    @cython.locals(found=int, share=double, least=double, more=double)
+    cdef int _noticed(self) noexcept

@@ -1,0 +1,272 @@
+"""Sensors that contradict each other while each of them is plausible."""
+
+import math
+
+import numpy as np
+
+from ..base import memory
+
+__all__ = ["ACCELERATION", "ENCODER_NOISE", "GYRO_NOISE", "LOAD", "TURN", "SensorWatch"]
+
+# Codes, which add up
+ACCELERATION = 1  # nature: a code
+TURN = 2  # nature: a code
+LOAD = 4  # nature: a code
+GYRO_NOISE = 8  # nature: a code
+ENCODER_NOISE = 16  # nature: a code
+
+_GRAVITY = 9.81  # nature: m/s^2
+_LEAST_PULL = 3.0  # chosen: m/s^2: soles of a robot that falls carry nothing to compare with
+_CARRIES = 0.3  # chosen: weight on a sole that does not turn; less may still come down
+_MOST_JITTER = 0.3  # chosen: rad/s: a shock counts as that much, so that it ends with the window
+
+
+class SensorWatch:
+    """Compares what encoders, IMU and soles report of one motion, tick by tick.
+
+    Three comparisons learn what is usual, with every single support that ends, and notice what is more than a share of
+    that and a constant: the accelerometer against the base's motion by encoders and gyro, in the mean of a window; the
+    turn of a sole that carries, within a window; the soles' load over the mass times the vertical specific force, more
+    and less, in the mean of a shorter window. White noise of gyro and encoders shows in their second differences.
+
+    Args:
+        joints: Number of angles.
+        mass: Robot's in kg.
+        period: Of control in s.
+        window: Of acceleration and turn in ticks.
+        mean: Ticks by which positions are differenced into speeds.
+        short: Window of load and noise in ticks.
+        share: Of what is usual.
+        leasts: Constants: acceleration in m/s^2, turn in rad, load as a share; and load before the first single support
+            has ended.
+        noises: Gyro's second difference in rad/s, and encoders' in rad; and the share of the joints that show it.
+
+    Attributes:
+        acceleration: Horizontal difference of the accelerometer in m/s^2.
+        turn: Of a sole that carries, in the window, in rad.
+        turn_x: Forward part of where that sole's normal went; `turn_y`: left part; world frame.
+        turns_right: Whether it is the right sole.
+        load: Soles' load over what the accelerometer shows.
+    """
+
+    def __init__(self, joints, mass, period, window, mean, short, share, leasts, noises):
+        self.joints = joints
+        self.mass = mass
+        self.period = period
+        self.window = window
+        self.mean = mean
+        self.short = short
+        self.share = share
+        self.least_acceleration, self.least_turn, self.least_load, self.first_load = leasts
+        self.gyro_noise, self.encoder_noise, self.noisy = noises
+        self.places = np.zeros(2 * (window + mean))
+        self.turns = np.zeros(4 * window)
+        self.loads = np.zeros(4 * short)
+        self.kept = np.zeros(2 * (joints + 3))
+        self.speed_x = 0.0
+        self.speed_y = 0.0
+        self.way_x = 0.0
+        self.way_y = 0.0
+        self.ticks = 0
+        self.left = 0
+        self.right = 0
+        self.sum_load = 0.0
+        self.sum_pull = 0.0
+        self.sum_gyro = 0.0
+        self.sum_joints = 0.0
+        self.walked = False
+        self.largest_acceleration = 0.0
+        self.recent_acceleration = 0.0
+        self.largest_turn = 0.0
+        self.recent_turn = 0.0
+        self.largest_more = 0.0
+        self.recent_more = 0.0
+        self.largest_less = 0.0
+        self.recent_less = 0.0
+        self.acceleration = 0.0
+        self.turn = 0.0
+        self.turn_x = 0.0
+        self.turn_y = 0.0
+        self.turns_right = False
+        self.load = 1.0
+
+    def skip(self):
+        """Ticks were missed: what was kept is not one period apart."""
+        self.ticks = 0
+        self.left = 0
+        self.right = 0
+
+    def end_support(self):
+        """A single support has ended: what it showed is usual from now on."""
+        self.walked = True
+        self.largest_acceleration = max(self.largest_acceleration, self.recent_acceleration)
+        self.largest_turn = max(self.largest_turn, self.recent_turn)
+        self.largest_more = max(self.largest_more, self.recent_more)
+        self.largest_less = max(self.largest_less, self.recent_less)
+        self.recent_acceleration = 0.0
+        self.recent_turn = 0.0
+        self.recent_more = 0.0
+        self.recent_less = 0.0
+
+    def update(self, joints, gyro, accelerometer, position, rotation, left_load, right_load, left, right):
+        """Take a tick: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in m/s^2; estimated position
+        (3,) in m and rotation (3, 3) of the base in the world; force in N on the left and the right sole, and their
+        rotations (3, 3) to the world.
+
+        Returns the sum of the codes of what is noticed, 0 for none.
+        """
+        found = self._noise(memory.values(joints), memory.values(gyro))
+        a = memory.values(accelerometer)
+        turn = memory.values(rotation)
+        self._accelerate(memory.values(position), turn, a)
+        pull = turn[6] * a[0] + turn[7] * a[1] + turn[8] * a[2]
+        self._weigh(left_load + right_load, pull)
+        least = _CARRIES * self.mass * _GRAVITY
+        self.left = self.left + 1 if left_load > least else 0
+        self.right = self.right + 1 if right_load > least else 0
+        self._tilt(memory.values(left), memory.values(right))
+        self.ticks += 1
+        return found + self._noticed()
+
+    def _noise(self, q, w):
+        """Means of the second differences, of what came one period apart; the codes of those that are too large."""
+        n = self.joints
+        kept = memory.room(self.kept)
+        loads = memory.room(self.loads)
+        ticks = self.ticks
+        many = 0.0
+        for i in range(n):
+            if math.fabs(q[i] - 2.0 * kept[i] + kept[n + i]) > self.encoder_noise:
+                many += 1.0
+            kept[n + i] = kept[i]
+            kept[i] = q[i]
+        spread = 0.0
+        for i in range(2 * n, 2 * n + 3):
+            spread += math.fabs(w[i - 2 * n] - 2.0 * kept[i] + kept[i + 3])
+            kept[i + 3] = kept[i]
+            kept[i] = w[i - 2 * n]
+        many = many / n if ticks >= 2 else 0.0
+        # nature: three axes
+        spread = min(spread / 3.0, _MOST_JITTER) if ticks >= 2 else 0.0
+        at = 4 * (ticks % self.short)
+        if ticks == 0:
+            self.sum_joints = 0.0
+            self.sum_gyro = 0.0
+        elif ticks >= self.short:
+            self.sum_joints -= loads[at + 2]
+            self.sum_gyro -= loads[at + 3]
+        if not many >= 0.0:
+            many = 0.0
+        if not spread >= 0.0:
+            spread = 0.0
+        loads[at + 2] = many
+        loads[at + 3] = spread
+        self.sum_joints += many
+        self.sum_gyro += spread
+        found = 0
+        if self.sum_gyro > self.gyro_noise * self.short:
+            found += 8  # derived: `GYRO_NOISE`
+        if self.sum_joints > self.noisy * self.short:
+            found += 16  # derived: `ENCODER_NOISE`
+        return found
+
+    def _accelerate(self, x, turn, a):
+        """The accelerometer's mean in the window less that of the base's motion.
+
+        With s the position less the twice integrated specific force, that is the second difference of s.
+        """
+        dt = self.period
+        places = memory.room(self.places)
+        window = self.window
+        mean = self.mean
+        size = window + mean
+        ticks = self.ticks
+        if ticks == 0:
+            self.speed_x = 0.0
+            self.speed_y = 0.0
+            self.way_x = 0.0
+            self.way_y = 0.0
+        self.speed_x += dt * (turn[0] * a[0] + turn[1] * a[1] + turn[2] * a[2])
+        self.speed_y += dt * (turn[3] * a[0] + turn[4] * a[1] + turn[5] * a[2])
+        self.way_x += dt * self.speed_x
+        self.way_y += dt * self.speed_y
+        now_x = x[0] - self.way_x
+        now_y = x[1] - self.way_y
+        self.acceleration = 0.0
+        at = 2 * (ticks % size)  # where the oldest is, `size` ticks ago
+        if ticks >= size:
+            near = 2 * ((ticks - mean) % size)
+            far = 2 * ((ticks - window) % size)
+            share = 1.0 / (mean * dt * window * dt)
+            dx = share * ((now_x - places[near]) - (places[far] - places[at]))
+            dy = share * ((now_y - places[near + 1]) - (places[far + 1] - places[at + 1]))
+            self.acceleration = math.hypot(dx, dy)
+        places[at] = now_x
+        places[at + 1] = now_y
+
+    def _weigh(self, load, pull):
+        """The soles' load over the mass times the vertical specific force."""
+        loads = memory.room(self.loads)
+        short = self.short
+        ticks = self.ticks
+        at = 4 * (ticks % short)
+        if ticks == 0:
+            self.sum_load = 0.0
+            self.sum_pull = 0.0
+        elif ticks >= short:
+            self.sum_load -= loads[at]
+            self.sum_pull -= loads[at + 1]
+        loads[at] = load
+        loads[at + 1] = pull
+        self.sum_load += load
+        self.sum_pull += pull
+        self.load = 1.0
+        if ticks >= short:
+            self.load = self.sum_load / (self.mass * max(self.sum_pull, _LEAST_PULL * short))
+
+    def _tilt(self, left, right):
+        """The turn of a sole that carried in the whole window, and 0.1 s before it."""
+        window = self.window
+        turns = memory.room(self.turns)
+        at = 4 * (self.ticks % window)
+        carried = window + self.short // 2
+        self.turn_x = 0.0
+        self.turn_y = 0.0
+        self.turns_right = False
+        if self.left > carried:
+            self.turn_x = left[2] - turns[at]
+            self.turn_y = left[5] - turns[at + 1]
+        self.turn = math.hypot(self.turn_x, self.turn_y)
+        if self.right > carried:
+            x = right[2] - turns[at + 2]
+            y = right[5] - turns[at + 3]
+            if math.hypot(x, y) > self.turn:
+                self.turn = math.hypot(x, y)
+                self.turn_x = x
+                self.turn_y = y
+                self.turns_right = True
+        turns[at] = left[2]
+        turns[at + 1] = left[5]
+        turns[at + 2] = right[2]
+        turns[at + 3] = right[5]
+
+    def _noticed(self):
+        """The codes of what is more than usual, and learn what is not."""
+        found = 0
+        share = self.share
+        if self.acceleration > self.least_acceleration + share * self.largest_acceleration:
+            found += 1  # derived: `ACCELERATION`
+        else:
+            self.recent_acceleration = max(self.recent_acceleration, self.acceleration)
+        if self.turn > self.least_turn + share * self.largest_turn:
+            found += 2  # derived: `TURN`
+        else:
+            self.recent_turn = max(self.recent_turn, self.turn)
+        least = self.least_load if self.walked else self.first_load
+        more = self.load - 1.0
+        if more > least + share * self.largest_more or -more > least + share * self.largest_less:
+            found += 4  # derived: `LOAD`
+        else:
+            self.recent_more = max(self.recent_more, more)
+            self.recent_less = max(self.recent_less, -more)
+        return found

@@ -1,0 +1,145 @@
+"""What encoders, IMU and soles report of one motion is compared; motions that agree give no word."""
+
+import numpy as np
+import pytest
+
+from plantar import kernels
+from plantar.kernels.safety import sensor_watch
+from plantar.kernels.safety.sensor_watch import ACCELERATION, ENCODER_NOISE, GYRO_NOISE, LOAD, TURN
+from plantar.mechanics.rotation import rotation_from_vector
+
+FORMS = [sensor_watch, kernels.python_form("sensor_watch")]
+PERIOD = 0.005
+MASS = 50.0
+WEIGHT = MASS * 9.81
+
+
+def watch_of(form, joints=3):
+    return form.SensorWatch(joints, MASS, PERIOD, 60, 12, 40, 2.0, (0.5, 0.07, 0.12, 0.5), (0.045, 1e-3, 0.25))
+
+
+class Motion:
+    """A base that sways by 5 cm at 1 Hz, tilted by 0.1 rad, with soles that carry its weight."""
+
+    def __init__(self, form):
+        self.watch = watch_of(form)
+        self.ticks = 0
+        self.rng = np.random.default_rng(3)
+
+    def tick(self, *, off=0.0, load=1.0, turn=0.0, gyro=0.0, joints=0.0):
+        t = PERIOD * self.ticks
+        self.ticks += 1
+        sway = 2.0 * np.pi * t
+        position = np.array([0.05 * np.sin(sway), 0.02 * np.cos(sway), 0.8])
+        rotation = rotation_from_vector(np.array([0.0, 0.1, 0.0]))
+        acceleration = (2.0 * np.pi) ** 2 * np.array([-0.05 * np.sin(sway), -0.02 * np.cos(sway), 0.0])
+        specific = rotation.T @ (acceleration + np.array([off, 0.0, 9.81]))
+        return self.watch.update(
+            0.1 * np.sin(sway + np.arange(3.0)) + joints * self.rng.normal(size=3),
+            0.1 * np.cos(sway + np.arange(3.0)) + gyro * self.rng.normal(size=3),
+            specific,
+            position,
+            rotation,
+            0.6 * WEIGHT * load,
+            0.4 * WEIGHT * load,
+            np.eye(3),
+            rotation_from_vector(np.array([turn, 0.0, 0.0])),
+        )
+
+    def after(self, ticks, **changes):
+        """Codes of some ticks together; changes are functions of the tick, from 0."""
+        found = 0
+        for k in range(ticks):
+            found |= self.tick(**{name: change(k) for name, change in changes.items()})
+        return found
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_motion_that_agrees_gives_no_word(form):
+    motion = Motion(form)
+    for _ in range(3):
+        assert motion.after(200) == 0
+        motion.watch.end_support()
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_an_accelerometer_that_is_off_is_measured_in_the_window(form):
+    motion = Motion(form)
+    motion.after(200)
+    assert motion.watch.acceleration < 0.06
+    assert motion.after(10, off=lambda k: 1.5) == 0
+    assert motion.after(40, off=lambda k: 1.5) == ACCELERATION
+    motion.after(60, off=lambda k: 1.5)
+    assert motion.watch.acceleration == pytest.approx(1.5, abs=0.06)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_what_a_support_showed_is_usual_from_its_end_on(form):
+    motion = Motion(form)
+    motion.after(200)
+    assert motion.after(100, off=lambda k: 0.4) == 0
+    motion.watch.end_support()
+    assert motion.after(150, off=lambda k: 1.2) == 0  # 2 x 0.4 + 0.5
+    assert motion.after(150, off=lambda k: 1.5) == ACCELERATION
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize(("share", "found"), [(0.9, 0), (0.82, LOAD), (1.1, 0), (1.2, LOAD), (0.3, LOAD)])
+def test_soles_that_carry_another_weight_than_before(form, share, found):
+    motion = Motion(form)
+    motion.after(100)
+    motion.watch.end_support()
+    assert motion.after(60, load=lambda k: share) == found
+    assert motion.watch.load == pytest.approx(share, abs=0.01)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_sole_that_carries_and_turns(form):
+    motion = Motion(form)
+    motion.after(100)
+    assert motion.after(40, turn=lambda k: 0.0015 * k) == 0
+    assert motion.after(40, turn=lambda k: 0.06 + 0.0015 * k) == TURN
+    assert motion.watch.turns_right
+    assert motion.watch.turn == pytest.approx(0.09, abs=0.01)
+    assert motion.watch.turn_y < 0.0  # the normal of a sole that rolls to the right goes to the right
+    # One that comes down may turn.
+    motion = Motion(form)
+    motion.after(100, load=lambda k: 0.1)
+    assert motion.after(60, turn=lambda k: 0.0015 * k) & TURN == 0
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_white_noise(form):
+    motion = Motion(form)
+    motion.after(50)
+    assert motion.after(40, gyro=lambda k: 0.002, joints=lambda k: 5e-5) == 0
+    assert motion.after(40, gyro=lambda k: 0.05) == GYRO_NOISE
+    motion.after(60)
+    assert motion.after(40, joints=lambda k: 1e-3) == ENCODER_NOISE
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_after_missed_ticks_the_windows_begin_again(form):
+    motion = Motion(form)
+    motion.after(200)
+    motion.watch.skip()
+    motion.ticks += 37
+    assert motion.after(200) == 0
+    assert motion.watch.acceleration < 0.06
+
+
+def test_compiled_and_interpreted_watch_agree():
+    motions = [Motion(form) for form in FORMS]
+    rng = np.random.default_rng(8)
+    for k in range(500):
+        changes = {"off": rng.normal(), "load": rng.uniform(0.3, 1.5), "turn": 0.1 * rng.normal(), "gyro": 0.03}
+        found = [motion.tick(**changes) for motion in motions]
+        assert found[0] == found[1]
+        for name in ("acceleration", "turn", "turn_x", "turn_y", "load", "turns_right"):
+            assert getattr(motions[0].watch, name) == pytest.approx(getattr(motions[1].watch, name), abs=1e-9)
+        if k % 130 == 129:
+            for motion in motions:
+                motion.watch.end_support()
+        if k == 333:
+            for motion in motions:
+                motion.watch.skip()
