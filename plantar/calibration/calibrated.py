@@ -1,7 +1,7 @@
 """Soles calibrated by takes: offsets first, then responses, and what the takes did not determine in words."""
 
 import datetime
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -24,6 +24,9 @@ _TOP = 0.995
 # Share of a sole's range of summed counts, below which it is in the air. What still presses becomes offset: in
 # benchmarks/calibration.py 0.09 N of a taxel (median) to 0.21 N; 0.12 and 0.40 N with a share of 0.12.
 _LIFTED = 0.03
+# Share of a sole's range of summed counts by which it may lie below its zero: more than hysteresis and drift of any
+# cell that is listed (0.15).
+_CARRIED = 0.2
 _FEWEST_LIFTED = 20  # frames: their mean has a quarter of a frame's noise
 SURE = 1.96
 """Standard errors from the middle of a 95 % interval to its end."""
@@ -121,6 +124,7 @@ def calibrate(takes: Sequence[Take], layout: SoleLayout, date: str | None = None
             if side in soles and counts.shape[1] != len(layout):
                 raise InputError(f"{take.name}: {counts.shape[1]} counts of the {side} sole; allowed: {len(layout)}")
     offset = {side: _offset(side, given) for side in soles}
+    _check_zeros(soles, given, offset)
     top = {side: _top(side, loaded, offset[side]) for side in soles}
     windows = [windows_of(take, offset, top) for take in loaded]
     reference = _reference(windows)
@@ -165,6 +169,22 @@ def _offset(side: Side, takes: Sequence[Take]) -> NDArray[np.float64]:
     if len(found) < _FEWEST_LIFTED:
         raise InputError(f"nothing shows the {side} sole without load; allowed: a zero take, or a motion that lifts it")
     return _mean(found, side)
+
+
+def _check_zeros(sides: Iterable[Side], takes: Sequence[Take], offset: Mapping[Side, NDArray[np.float64]]) -> None:
+    """Refuse zero takes of soles that carried: counts under load would then lie below those without."""
+    for side in sides:
+        zeros = [take.name for take in takes if take.kind == "zero" and side in take.counts]
+        for take in takes:
+            if take.kind == "zero" or side not in take.counts or not zeros:
+                continue
+            low, high = np.nanquantile(np.nansum(take.counts[side] - offset[side], axis=1), [0.002, 0.98])
+            if high > low and low < -_CARRIED * (high - low):
+                raise InputError(
+                    f"{zeros[0]}: without load the {side} sole gives more than in {take.name} at its least, by "
+                    f"{-100.0 * low / (high - low):.0f} % of the range there; allowed: {100.0 * _CARRIED:.0f} % or "
+                    "less, so a zero take of soles in the air"
+                )
 
 
 def _mean(counts: NDArray[np.float64], side: Side) -> NDArray[np.float64]:

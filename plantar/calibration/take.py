@@ -149,7 +149,7 @@ def read_take(
         InputError: If load and reference are both given, or neither where one is needed.
         FormatError: If a file is unreadable.
     """
-    found = read_recording(recording, options=ReadOptions(unit="raw"))
+    found = read_recording(recording, options=ReadOptions(unit="raw", calibrated=False))
     name = Path(recording).name
     if load is not None and reference is not None:
         raise InputError(f"{name} has a weight and a reference; allowed: one of them")

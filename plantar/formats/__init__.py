@@ -137,7 +137,8 @@ def read_recording(
         check_input(path, FormatError)
         raise FormatError(f"{path}: a footprint image is no recording over time")
     try:
-        found = checked(in_newtons(chosen.read(Path(path), known)))
+        found = chosen.read(Path(path), known)
+        found = checked(in_newtons(found) if known.calibrated else found)
         if known.plates and found.kind != "plate":
             raise InputError(f"--plates is for force plates; {path} is a recording of kind {found.kind}")
         if known.columns is not None and found.format != "csv":

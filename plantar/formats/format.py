@@ -23,6 +23,7 @@ class ReadOptions:
         mass_kg: Body mass, which turns forces in body weights into N.
         plates: Foot of each force plate in file order; None leaves a plate out.
         columns: Which columns of a table are what, such as "left=Fz1, right=Fz2, time=t", or as a mapping.
+        calibrated: Whether counts of soles whose layout is calibrated become forces in N.
 
     Raises:
         InputError: If the rate, mass or side cannot be.
@@ -36,6 +37,7 @@ class ReadOptions:
     mass_kg: float | None = None
     plates: tuple[Side | None, ...] = ()
     columns: str | Mapping[str, str | int] | None = None
+    calibrated: bool = True
 
     def __post_init__(self) -> None:
         if self.rate_hz is not None and not RATES[0] <= self.rate_hz <= RATES[1]:

@@ -54,10 +54,11 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 def _is_raw(recording: Recording, stated: str | None) -> bool:
     """Whether values are counts, as the recording or an option says; FormatError for an option that says otherwise."""
     counts = recording.metadata.get("unit") == "counts"
+    newtons = recording.metadata.get("unit") == "N"
     unit = None if stated is None else find_unit(stated)
     if unit is None:
         return counts
-    if unit.kind == "raw":
+    if unit.kind == "raw" and not newtons:
         return True
     if counts or unit.kind != "force" or unit.factor != 1.0:
         held = "counts" if counts else "forces in N"

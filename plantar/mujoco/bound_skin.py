@@ -22,14 +22,17 @@ from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.contacts import ContactReader
 from plantar.mujoco.layer import ElasticLayer, SharedLoad
+from plantar.mujoco.ray_depth import ray_depths
 from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.link_skin import SkinPatch
 from plantar.sensing.reading import Reading
 from plantar.sensing.taxel_faults import TaxelFaults
 
-_LIFT = 0.02  # m inside the body at which proximity rays begin
 _PASSED = 20  # surfaces of its own that a ray passes at most
+
+LIFT = 0.02
+"""Depth in m inside the body at which rays begin: what is deeper is not seen."""
 
 MOST_DATA = 64
 """How many MjData have their contacts kept in view, and so in memory, unless more are read at once."""
@@ -149,6 +152,7 @@ class BoundSkin:
             np.ascontiguousarray(convex_hull(layout.positions[:, :2])),
         )
         self.shared = None if layer is None else SharedLoad(layer, layout)
+        self._depths = np.zeros(0) if proximity is None else ray_depths(model, body, self.patch, LIFT)
         self._views: dict[int, SkinView] = {}
         self._most = MOST_DATA
 
@@ -294,17 +298,17 @@ class BoundSkin:
     def distances(self, view: "SkinView") -> NDArray[np.float64]:
         """Distance (n,) outwards to another body in m; inf beyond range."""
         axes = self.static[1] @ view.rotation.T
-        starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
+        starts = view.origin + self.static[0] @ view.rotation.T + self._depths[:, None] * axes
         geom = np.empty(1, dtype=np.int32)
         out = np.full(len(self), math.inf)
         reach = float(self.proximity_range or 0.0)
         nearest = self._nearest
-        for i, (start, axis) in enumerate(zip(starts, axes, strict=True)):
-            gap = mujoco.mj_ray(self.model, view.data, start, -axis, None, 1, self.body, geom) - _LIFT
+        for i, (start, axis, depth) in enumerate(zip(starts, axes, self._depths.tolist(), strict=True)):
+            gap = mujoco.mj_ray(self.model, view.data, start, -axis, None, 1, self.body, geom) - depth
             for _ in range(_PASSED):
                 if (hit := geom.item()) < 0 or gap > reach or gap >= nearest[hit]:
                     break
-                place = start - (gap + _LIFT + 1e-6) * axis
+                place = start - (gap + depth + 1e-6) * axis
                 gap += 1e-6 + mujoco.mj_ray(self.model, view.data, place, -axis, None, 1, self.body, geom)
             if hit >= 0 and nearest[hit] <= gap <= reach:
                 out[i] = gap

@@ -15,15 +15,13 @@ from numpy.typing import NDArray
 from plantar.common.arguments import instance, integer, items
 from plantar.errors import InputError, RobotError
 from plantar.kernels.contacts.pressed_patch import load_block, load_parts
-from plantar.mujoco.bound_skin import SkinReading, reading_of_block
+from plantar.mujoco.bound_skin import LIFT, SkinReading, reading_of_block
 from plantar.mujoco.foam import Foam
 from plantar.mujoco.foam_obstacle import Obstacle
 from plantar.mujoco.named_id import named_id
+from plantar.mujoco.ray_depth import ray_depths
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.reading import Reading
-
-LIFT = 0.02
-"""Depth in m below the surface from which rays start: what sinks in deeper is not measured."""
 
 _CONTACT_BIT = 1 << 20  # MuJoCo's bit of contacts among obstacles and what has no skin
 _LONGEST_STEP = 0.02  # s between two physics steps over which an obstacle's velocity is taken
@@ -38,6 +36,8 @@ class _Patch(NamedTuple):
     starts: NDArray[np.float64]
     ways: NDArray[np.float64]
     areas: NDArray[np.float64]
+    depths: NDArray[np.float64]
+    ends: NDArray[np.float64]
     reach: float
 
 
@@ -55,7 +55,7 @@ class FoamSkins:
     Attributes:
         body_skin: The skin, N taxels on L links.
         force: True normal (N,) in N at the last `press`.
-        depth: How far (N,) each taxel yields in m.
+        depth: How far (N,) each taxel yields in m, up to `LIFT` or half of its link.
         distance: True (N,) in m; inf out of range, negative where pressed in.
         wrenches: True (L, 6) on the links about their origins, world frame, by the obstacles on the robot.
         on_obstacles: True (6,) about each geom's middle, world frame, by name.
@@ -205,7 +205,7 @@ class FoamSkins:
         nearest = self.distance[patch.taxels]
         for k in obstacles:
             lengths = self._obstacles[k].lengths(data, starts, ways, patch.reach)
-            distance = np.where((lengths >= 0.0) & (lengths <= patch.reach), lengths - LIFT, np.inf)
+            distance = np.where((lengths >= 0.0) & (lengths <= patch.ends), lengths - patch.depths, np.inf)
             np.minimum(nearest, distance, out=nearest)
             pressed = np.flatnonzero(distance < 0.0)
             if len(pressed):
@@ -305,14 +305,17 @@ def _ready(model: Any, skin: BodySkin, index: int, bodies: list[int]) -> _Patch:
     patch = skin.patches[index]
     inward = np.ascontiguousarray(patch.rotations[:, :, 2])
     link = skin.links.index(patch.link)
+    depths = ray_depths(model, bodies[link], patch, LIFT)
     return _Patch(
         taxels=skin.slices[patch.name],
         link=link,
         body=bodies[link],
         root=int(model.body_rootid[bodies[link]]),
-        starts=patch.positions + LIFT * inward,
+        starts=patch.positions + depths[:, None] * inward,
         ways=-inward,
         areas=patch.areas,
+        depths=depths,
+        ends=depths + patch.proximity_range,
         reach=LIFT + patch.proximity_range,
     )
 

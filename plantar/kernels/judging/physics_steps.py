@@ -4,7 +4,7 @@ __all__ = ["PhysicsSteps"]
 
 
 class PhysicsSteps:
-    """Makes physics steps of a walk on drives as modelled, which nobody pushes.
+    """Makes physics steps of a walk on drives as modelled, without pushes.
 
     Attribute `seen`: what `StepWatch.step` reported after the last step.
 

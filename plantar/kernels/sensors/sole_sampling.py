@@ -18,7 +18,7 @@ class ProximitySampling:
         self.skipped = 0
 
     def skip(self):
-        """A sample that nothing is measured at."""
+        """A sample without a measurement."""
         self.noise.advance()
         self.skipped += self.count
 

@@ -1,1 +1,1 @@
-"""Skin anywhere on a body: its taxels, what presses, what they measure."""
+"""Skin on machines and robots: where its taxels are, and what its electronics measure."""

@@ -131,7 +131,7 @@ class Simulation(Run):
         return self.judge.physics_steps(drives, self._physics_step())
 
     def _physics_step(self) -> Callable[[], None]:
-        """`step_physics`, without a call of Python where nobody does more."""
+        """`step_physics`, without a call of Python unless a subclass does more."""
         usual = type(self).step_physics is Simulation.step_physics
         return partial(mujoco.mj_step, self.world.model, self.world.data) if usual else self.step_physics
 

@@ -55,6 +55,22 @@ def test_a_steady_load_shows_no_gain_and_is_said_to():
     assert known.forces(counts, SOLE, RATE).sum(axis=1).mean() == pytest.approx(400.0, rel=0.02)
 
 
+def test_a_zero_of_soles_that_carry_is_refused():
+    """It would become the offset: all loads were too small by it, without a word."""
+    _, _, press = pressed(4, 8.0)
+    carrying = Take("zero", press.time, press.counts)
+    with pytest.raises(InputError, match=r"take: without load the left sole gives more than in take .* in the air"):
+        calibrate([carrying, press], SOLE)
+
+
+@pytest.mark.parametrize("drift", [-0.1, 0.1])
+def test_a_zero_that_drifted_as_far_as_cells_do_is_taken(drift):
+    _, air, press = pressed(4, 8.0)
+    span = np.ptp(press.counts["left"].sum(axis=1)) / N
+    moved = Take("zero", air.time, {"left": air.counts["left"] + drift * span})
+    assert calibrate([moved, press], SOLE).calibrations["left"].offset.shape == (N,)
+
+
 def test_takes_that_do_not_fit_are_refused_in_a_line():
     _, air, press = pressed(1, 4.0)
     with pytest.raises(InputError, match="no take holds a load"):

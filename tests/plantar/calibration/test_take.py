@@ -1,12 +1,17 @@
 """Takes: counts and loads that fit together, from files too."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from plantar import InputError
+from plantar import FormatError, InputError, grid_layout
 from plantar.calibration import Take, read_take
+from plantar.layouts.calibration import SoleCalibration
+from plantar.recordings.recorder import Recorder
 
 TIME = np.arange(20) / 100
+SOLE = grid_layout([[0, 0], [0.08, 0], [0.08, 0.04], [0, 0.04]], pitch=(0.04, 0.04))
 
 
 @pytest.mark.parametrize(
@@ -48,3 +53,18 @@ def test_a_reference_is_put_on_the_times_of_the_counts(tmp_path):
         read_take("press", counts, reference=table(tmp_path / "bad.csv", "time,newton", rows))
     with pytest.raises(InputError, match="weight and a reference"):
         read_take("motion", counts, 700.0, tmp_path / "ref.csv")
+
+
+def test_counts_stay_counts_where_the_layout_is_calibrated_and_newtons_are_no_counts(tmp_path):
+    """A recording holds its layout, whose calibration would make newtons of counts, or once more of newtons."""
+    known = SoleCalibration.linear(0.5 * np.ones(len(SOLE)), 100.0 * np.ones(len(SOLE)))
+    layout = replace(SOLE, calibrations={"left": known})
+    counts = np.arange(100.0, 120.0)[:, None] * np.ones(len(SOLE))
+    for unit in ("counts", "N"):
+        with Recorder(tmp_path / f"{unit}.mcap", {"unit": unit}, {"left": layout}) as recorder:
+            skin = recorder.channel("/skin/left", [("force", len(SOLE))])
+            for t, row in zip(TIME, counts, strict=True):
+                skin.write(t, row)
+    assert read_take("zero", tmp_path / "counts.mcap").counts["left"].tolist() == counts.tolist()
+    with pytest.raises(FormatError, match="which holds forces in N"):
+        read_take("zero", tmp_path / "N.mcap")

@@ -385,3 +385,14 @@ def test_faults_are_those_of_the_seed_and_leave_the_truth():
     data.efc_force[:] = np.nan
     assert np.isnan(feel(data).force).all()  # diverged
     assert pickle.loads(pickle.dumps(read)).force.tobytes() == read.force.tobytes()
+
+
+def test_proximity_of_a_thin_plate_does_not_see_what_is_behind_it():
+    model = mujoco.MjModel.from_xml_string("""<mujoco><worldbody><body name="plate"><freejoint/>
+      <geom type="box" size=".06 .06 .004"/></body>
+      <body mocap="true" pos="0 0 -.027"><geom type="box" size=".05 .05 .02"/></body></worldbody></mujoco>""")
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    front, behind = (Skin(body="plate", outward=(0, 0, z), proximity=0.05).bind(model)(data) for z in (1, -1))
+    assert np.isinf(front.distance).all()
+    assert behind.distance.min() == pytest.approx(0.003, abs=1e-9)

@@ -12,8 +12,7 @@ import pytest
 from plantar.errors import InputError, RobotError, SceneError
 from plantar.mujoco import Foam, FoamSkins, Skin, Skins
 from plantar.sensing.link_skin import BodySkin
-from plantar.sensing.reading import Reading
-from plantar.sim.body_skin.electronics import SkinElectronics, SkinElectronicsSettings, SkinSensing
+from plantar.sim.body_skin.electronics import SkinElectronics, SkinSensing
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
 
 WORLD = """
@@ -164,22 +163,6 @@ def test_a_link_without_skin_touches_obstacles_by_contacts():
     assert data.body("thing").xpos[2] == pytest.approx(0.66, abs=0.003)
 
 
-def test_readings_have_rate_delay_gain_errors_and_dead_taxels():
-    _model, _data, sensor = world(SHAPES[0], "0 0 .649")
-    settings = SkinSensing(dead_taxels=0.1, delay_periods=2, noise=0.0, rate=100.0)
-    count = len(sensor.body_skin)
-    electronics = SkinElectronics(sensor.body_skin, settings, 3)
-    told = []
-    for step in range(50):
-        true = Reading(0.001 * step, np.full(count, 10.0 * (1.0 + step)))
-        told.append(electronics.read(0.001 * step, lambda true=true: true))
-    assert [r.time for r in told[::10]] == pytest.approx([0.0, 0.0, 0.0, 0.01, 0.02])
-    assert np.isnan(told[0].force).sum() == round(0.1 * count)
-    spread = np.nanstd(told[0].force / 10.0)
-    assert 0.02 < spread < 0.08
-    assert SkinElectronicsSettings().bits == 10
-
-
 def test_a_world_without_the_link_is_refused():
     model, _data, sensor = world(SHAPES[0], "0 0 .65")
     other = mujoco.MjModel.from_xml_string("<mujoco/>")
@@ -278,6 +261,25 @@ def test_a_height_field_presses_as_the_box_of_its_height():
         found.append(foam.depth)
     assert found[0] == pytest.approx(0.002, abs=1e-6)
     assert found[1] == pytest.approx(found[0], abs=1e-6)
+
+
+@pytest.mark.parametrize("half", [0.003, 0.009, 0.03])
+@pytest.mark.parametrize(
+    "shape", ['pos="0 0 -.049" type="sphere" size=".05"', 'pos="0 0 -.019" type="box" size=".05 .05 .02"']
+)
+def test_what_presses_a_thin_plate_from_behind_is_not_felt_in_front(half, shape):
+    xml = f"""<mujoco><worldbody><body name="plate"><joint type="slide" axis="1 0 0"/>
+      <geom type="box" size=".06 .06 {half}" mass="1"/></body>
+      <body mocap="true" pos="0 0 {-half}"><geom name="thing" {shape}/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(xml)
+    found = []
+    for way in (1, -1):
+        patch = Skins([Skin(body="plate", outward=(0, 0, way), cell_area=1e-4).bind(model)]).body_skin
+        foam = FoamSkins(model, patch, ["thing"])
+        run(model, mujoco.MjData(model), foam, 1)
+        found.append(foam.depth.max())
+    assert found[0] == 0.0
+    assert found[1] == pytest.approx(0.001, rel=0.05)
 
 
 def test_what_is_wrong_is_refused_in_one_line():
