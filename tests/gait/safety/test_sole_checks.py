@@ -35,3 +35,15 @@ def test_a_reversed_order_that_mixes_both_axes_is_named(sides):
 
 def test_soles_in_order_pass():
     assert check_leaning_soles(leaned()) == []
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("slope", [-0.6, 2.8])
+def test_a_reversed_sole_that_moves_too_much_forward_is_named_by_what_both_make(side, slope):
+    trace = leaned()
+    noise = 0.01 * np.sin(2.0 * np.pi * 3.3 * trace["time"])  # so that neither order is explained far better
+    lean = trace["vrp"][:, 0]
+    for order, part in (("center", slope), ("reversed", 0.9)):
+        trace[f"{order}_{side}"] = np.column_stack([part * lean + noise, trace[f"{order}_{side}"][:, 1]])
+    causes = [finding.cause for finding in check_leaning_soles(trace)]
+    assert causes == [f"taxel order of the {side} sole reversed"]
