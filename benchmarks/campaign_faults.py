@@ -306,3 +306,57 @@ PAIRS: dict[str, tuple[str, str]] = {f"{a} + {b}": (a, b) for a, b in drawn_pair
 def parts_of(name: str) -> list[CampaignFault]:
     """The faults of a name: one, or a pair's two."""
     return [SINGLE[part] for part in PAIRS.get(name, (name,))]
+
+
+_LEARNED = "learned as usual where it begins before the first single support has ended"
+_AIR = "a sole in the air has nothing to be compared with until it lands"
+_STONE = "a stone under one taxel reads as much, until the next swing"
+_STILL = "joints hardly move while the robot stands"
+_DRIVES = "the expected torque is fed forward: joints miss by less than 0.03 rad"
+
+WHY_LATE: Mapping[str, str] = MappingProxyType(
+    {
+        "IMU turned by 10 degrees": "a mean over 0.3 s; pushes reach a third of it",
+        "accelerometer off by 1 m/s^2": "as much as the limit, twice what a push reaches",
+        "IMU 50 ms late": "the trunk turns by less than 0.02 rad in that time",
+        "gyro off by 0.1 rad/s": "turns by 0.03 rad in 0.3 s; stumbling soles by 0.05",
+        "gyro's axes exchanged": "shows by the turn of the standing sole, of 0.07 rad",
+        "gyro zero": "shows by the turn of the standing sole, of 0.07 rad",
+        "left skin reports 80 %": "drawn plants that hands lead differ by 13 %; " + _AIR,
+        "right skin reports 120 %": "drawn plants that hands lead differ by 13 %; " + _AIR,
+        "left skin reports three times": _AIR,
+        "left skin NaN": _AIR,
+        "left skin zeros": _AIR,
+        "right skin zeros": _AIR,
+        "a third of the left taxels is silent": _AIR,
+        "a third of the right taxels reads NaN": _AIR,
+        "taxel order of the left sole reversed": "a flat sole's load is the same; shows as the body falls",
+        "soles swapped": "both carry the same while the robot stands",
+        "soles with noise of 3 N": "twice the noise of a sound sole",
+        "a left taxel is silent": "so is one over a gap of the ground",
+        "a left taxel reads 60 N": _STONE,
+        "a right taxel reads 100 N": _STONE,
+        "a left taxel drifts by 50 N/s": _STONE,
+        "a right taxel reads -200 N": "looked at in swings",
+        "a right taxel has noise of 50 N": _STONE,
+        "a right taxel reads five times its load": _STONE,
+        "a left taxel reads 600 N at times": "5 ms in 50; an impact reads so",
+        "a left taxel reads 600 N": "1.7 weights are left to landings",
+        "a right taxel reads 600 N": "1.7 weights are left to landings",
+        "a left taxel reads 600 N at a corner": "1.7 weights are left to landings",
+        "one encoder stuck for 0.05 s": "its joint moves by less than 0.015 rad meanwhile",
+        "a hip's encoder stuck": _STILL,
+        "a knee's encoder stuck": _STILL,
+        "an ankle's roll encoder stuck": _STILL,
+        "a knee's encoder 50 ms late": _STILL + "; " + _LEARNED,
+        "encoders 20 ms late": _STILL + "; " + _LEARNED,
+        "encoders 50 ms late": _STILL + "; " + _LEARNED,
+        "encoders 100 ms late": _STILL + "; " + _LEARNED,
+        "encoders in steps of 5 mrad": _STILL,
+        "a knee's encoder drifts by 0.2 rad/s": "0.06 rad in 0.3 s; " + _LEARNED,
+        "an ankle's encoder drifts by -0.2 rad/s": "0.06 rad in 0.3 s; " + _LEARNED,
+        "a knee's drive at half its stiffness": _DRIVES,
+        "battery sags: drives at 0.7 of their stiffness": _DRIVES,
+    }
+)
+"""Why a fault that comes alone may stay without a name for 0.3 s."""

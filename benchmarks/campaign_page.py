@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from campaign_faults import PAIRS
+from campaign_faults import PAIRS, WHY_LATE
 
 from plantar.bench.intervals import wilson_interval
 from plantar.bench.tables import markdown_table
@@ -122,8 +122,8 @@ def unnamed(rows: Mapping[str, Row]) -> str:
         if late or never:
             slowest = f"{late[-1]:.2f} s" if late else "-"
             fell = sum(row["fell"] is not None for row in mine)
-            lines.append((name, len(mine), len(late), slowest, never, fell))
-    return markdown_table(("fault", "runs", "named after 0.3 s", "slowest", "never named", "fell"), lines)
+            lines.append((name, len(mine), len(late), slowest, never, fell, WHY_LATE.get(name, "-")))
+    return markdown_table(("fault", "runs", "named after 0.3 s", "slowest", "never named", "fell", "why"), lines)
 
 
 def moves(rows: Mapping[str, Row], usual: Mapping[str, tuple[float, float]]) -> str:

@@ -45,6 +45,12 @@ def test_each_fault_changes_the_fields_of_its_group_alone(benchmarks):
         assert changed or part.group in ("all", "loop", "drives"), name
 
 
+def test_reasons_are_of_faults_that_come_alone(benchmarks):
+    from campaign_faults import SINGLE, WHY_LATE
+
+    assert set(WHY_LATE) <= set(SINGLE)
+
+
 def test_pairs_are_of_two_groups_and_drawn_once(benchmarks):
     from campaign_faults import PAIRS, SINGLE, drawn_pairs, parts_of
 
