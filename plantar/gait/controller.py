@@ -236,7 +236,7 @@ class WalkingController:
             moved = self.plan.apply(change, time, region).moved
             self.replans += not change.following  # steps that come one by one are no other plan
             phase = self.schedule.at(time)
-            region = footing.zmp_region(footing.follow(phase, time))
+            region = footing.zmp_region(phase, footing.follow(phase, time))
         reference = self.plan.at(time)
         law = self.balance if feedback else self._open_loop
         region = region if feedback else _UNBOUNDED_REGION

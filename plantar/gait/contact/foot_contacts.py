@@ -35,11 +35,7 @@ _LEANS = 0.05
 # chosen: of the room around the best place by torques in which a whole sole keeps its middle; bounded by 0, where any
 # sole is moved, and 1, where its edge holds it
 _ASIDE = 0.5
-_STANDING: dict[Side | None, tuple[Side, ...]] = {
-    None: SIDES,
-    "left": ("right",),
-    "right": ("left",),
-}  # by the last swing
+_STANDING: dict[Side | None, tuple[Side, ...]] = {None: SIDES, "left": ("right",), "right": ("left",)}  # by swing
 # chosen: of a support's inscribed circle that the margin takes at most: all of it leaves one ZMP; bounded by 0, where
 # noise reaches the edge, and 1
 _NARROW = 0.5
@@ -325,14 +321,15 @@ class FootContacts:
         limits = self._limits.get(side)
         return polygon if limits is None else limits.within(polygon, lean, part)
 
-    def zmp_region(self, feet: FeetView, frame_offset: Sequence[float], margin: float) -> NDArray[np.float64]:
+    def zmp_region(
+        self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float
+    ) -> NDArray[np.float64]:
         """Returns the desired ZMP's region: support polygon (k, 2), world frame, in m, moved in by a `margin` in m.
 
-        Unknown support counts as the whole sole; a single foot within its ankle's torques. A foot in the air supports
-        nothing, in a planned double support either. `feet` are the commanded, `frame_offset` (3,) that of the command
-        frame in the world in m.
+        Unknown support counts as the whole sole; a single foot within its ankle's torques. `phase` is the walk's,
+        `feet` the commanded, `frame_offset` (3,) of the command frame in the world in m.
         """
-        standing = SIDES if feet.landed else _STANDING[feet.side]
+        standing = SIDES if feet.landed else _STANDING[phase.swing]
         alone = len(standing) == 1
         first = standing[0]
         last = standing[-1]

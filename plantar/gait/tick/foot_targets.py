@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.common.sides import Side, other_side
+from plantar.common.sides import Side
 from plantar.gait.balance.law import Feet, FootAction, FootState
 from plantar.gait.command import FootTarget
 from plantar.gait.controller_settings import ControllerSettings
@@ -56,10 +56,7 @@ class FootTargets:
             states[side] = FootState(
                 motion.footholds[side][0], level, rotation, footing.contacts.center(side), contact, wrench
             )
-        stance = phase.stance
-        if stance is None and not motion.landed and motion.last_side is not None:
-            stance = other_side(motion.last_side)  # a foot that is late carries nothing yet, whatever the plan says
-        return Feet(states, stance, footing.frame, rests)
+        return Feet(states, phase.stance, footing.frame, rests)
 
     def targets(self, feet: Feet, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
         """Returns pose and load of each sole of `feet`, turned and shifted about its center by the law's actions."""

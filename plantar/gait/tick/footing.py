@@ -193,7 +193,7 @@ class Footing:
         # On its way up a sole sees the ground that it leaves.
         sees = looks and self.motion.comes_down
         seen = self.contacts.find_ahead(phase, time, feet, state, percepts) if sees else None
-        region = self.zmp_region(feet)
+        region = self.zmp_region(phase, feet)
         pendulum = None
         if dcm is not None and (s.step_timing is not None or s.step_adjustment is not None):
             pendulum = self._pendulum(phase, time, dcm, region)
@@ -213,10 +213,10 @@ class Footing:
         )
         return tick, region
 
-    def zmp_region(self, feet: FeetView) -> NDArray[np.float64]:
-        """Returns the desired ZMP's region with such feet: polygon (k, 2), world frame, in m."""
+    def zmp_region(self, phase: Phase, feet: FeetView) -> NDArray[np.float64]:
+        """Returns the desired ZMP's region in a phase with such feet: polygon (k, 2), world frame, in m."""
         margin = 0.0 if self._regulates else self._settings.balance.zmp_offset  # f(c) S is a share of the whole S
-        return self.contacts.zmp_region(feet, self.frame.offset, margin)
+        return self.contacts.zmp_region(phase, feet, self.frame.offset, margin)
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
         offset = NO_PUSH
