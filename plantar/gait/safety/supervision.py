@@ -4,7 +4,6 @@ It notes what does not, for whoever reads the log. Of one joint that does not fo
 targets; where most do not, or soles are late, it calls that grave.
 """
 
-import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -13,10 +12,18 @@ from numpy.typing import NDArray
 from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, Sensors
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
-from plantar.kernels.safety.sensor_watch import ACCELERATION, ENCODER_NOISE, GYRO_NOISE, LOAD, TURN, SensorWatch
+from plantar.kernels.safety.sensor_watch import (
+    ACCELERATION,
+    ENCODER_NOISE,
+    GYRO_NOISE,
+    LATE,
+    LOAD,
+    SELDOM,
+    TURN,
+    SensorWatch,
+)
 from plantar.kernels.safety.tracking import TrackingCheck
 from plantar.layouts.layout import SoleLayout
-from plantar.sensing.reading import Reading
 
 # Each limit is a share of what the robot itself has shown, and a constant. The constants are measured: on 38 walks of
 # drawn plants of level 3, which are four robots' over flat and uneven ground and stones, turning and pushed, and 11
@@ -76,12 +83,6 @@ class Supervision:
         self._stance: Side | None = None
         self._waits = round(_OPENING / period)
         self.repeated = round(_REPEATED / period)
-        self._stamps = [math.nan, math.nan]
-        self._came = [math.nan, math.nan]
-        self._gaps = [math.inf, math.inf]
-        self._ages = [math.inf, math.inf]
-        self._plan_ages = [math.inf, math.inf]
-        self._older = [0, 0]
         self._named = ""
         self._moved = 0
         self._taken: set[int] = set()
@@ -90,9 +91,8 @@ class Supervision:
 
     def restart_clock(self) -> None:
         """The clock has another zero: readings have other ages."""
-        self._ages = [math.inf, math.inf]
-        self._plan_ages = [math.inf, math.inf]
-        self._came = [math.nan, math.nan]
+        if self._watch is not None:
+            self._watch.restart_clock()
 
     def skip(self) -> None:
         """Ticks were missed."""
@@ -154,21 +154,15 @@ class Supervision:
             short = round(_SHORT / self._period)
             joints = len(sensors.joint_positions)
             leasts = (_ACCELERATION, _TURN, *_LOAD)
-            watch = SensorWatch(joints, self._mass, self._period, window, mean, short, _SHARE, leasts, _NOISES)
+            ages = (_OLDER, _OLDER_FOR)
+            watch = SensorWatch(joints, self._mass, self._period, window, mean, short, _SHARE, leasts, *ages, _NOISES)
             self._watch = watch
         stance = command.phase.stance
         if stance is not self._stance:
             self._change_stance(watch, stance)
-        state = command.state
-        turns = state.rotations_sole
-        found = watch.update(
-            *(sensors.joint_positions, sensors.gyro, sensors.accelerometer),
-            *(state.position_base, state.rotation_base_to_world, soles.left, soles.right),
-            *(turns["left"], turns["right"]),
-        )
+        found = watch.update(sensors, command, soles.left, soles.right, reported)
         if found:
             self._name(found, watch, sensors, command)
-        self._compare_ages(sensors.readings, reported, sensors.time)
 
     def _change_stance(self, watch: SensorWatch, stance: Side | None) -> None:
         """Learn what a single support that has ended showed."""
@@ -183,6 +177,8 @@ class Supervision:
 
     def _name(self, found: int, watch: SensorWatch, sensors: Sensors, command: Command) -> None:
         """Put codes in words."""
+        if found >= LATE:
+            self._name_ages(found, watch)
         if found & ACCELERATION:
             self._note(
                 "acceleration", f"accelerometer {watch.acceleration:.1f} m/s^2 off the motion by encoders and gyro"
@@ -201,33 +197,15 @@ class Supervision:
                 text = f"the {side} sole carries and turns by {watch.turn:.2f} rad in {_WINDOW} s, by encoders and gyro"
                 self._note("turn", text)
 
-    def _compare_ages(self, readings: Mapping[Side, Reading], reported: float, time: float) -> None:
-        """Note a sole whose readings come later, or more seldom, than they did.
-
-        They have to be late by the `reported` time in s and by that of the plan, in s: after a stall the plan's is
-        behind, and a clock that stood still makes all that comes after it late.
-        """
+    def _name_ages(self, found: int, watch: SensorWatch) -> None:
+        """Put what is late or comes seldom in words."""
         for i, side in enumerate(SIDES):
-            stamp = readings[side].time
-            if stamp == self._stamps[i]:
-                if time - self._came[i] > _OLDER + 2.0 * self._gaps[i]:
-                    self._note(f"{side} gap", f"no new readings of the {side} sole for {time - self._came[i]:.2f} s")
-                continue
-            self._stamps[i] = stamp
-            if time - self._came[i] < self._gaps[i]:
-                self._gaps[i] = time - self._came[i]
-            self._came[i] = time
-            if reported - stamp < self._ages[i]:
-                self._ages[i] = reported - stamp
-            if time - stamp < self._plan_ages[i]:
-                self._plan_ages[i] = time - stamp
-            later = reported - stamp - self._ages[i]
-            if later > time - stamp - self._plan_ages[i]:
-                later = time - stamp - self._plan_ages[i]
-            self._older[i] = self._older[i] + 1 if later > _OLDER else 0
-            if self._older[i] >= _OLDER_FOR:
+            later = watch.later[i]
+            if found & SELDOM << i:
+                self._note(f"{side} gap", f"no new readings of the {side} sole for {later:.2f} s")
+            elif found & LATE << i:
                 self._note(f"{side} age", f"readings of the {side} sole come {later:.2f} s later than they did")
-                if later > _TOO_LATE and self._older[i] * self._period > _LATE_FOR:
+                if later > _TOO_LATE and watch.late[i] * self._period > _LATE_FOR:
                     self.grave = "the soles' readings come too late to walk by"
 
 

@@ -49,6 +49,7 @@ class TaxelCheck:
         self._named: dict[Side, set[int]] = {side: set() for side in SIDES}
         self.found = ""
         self.count = 0
+        self._looked = False
 
     def checked(
         self,
@@ -63,14 +64,18 @@ class TaxelCheck:
         `loads` in N on the left and the right sole, of a tick ago; `accelerometer` (3,) in m/s^2; `phase` of the walk;
         `time` of the plan in s.
         """
+        weight = self._weight
         swing = phase.swing
         if swing is not None:
             share = (time - phase.start) / (phase.end - phase.start)
             carried = loads[0 if swing == "right" else 1]
-            if not UP[0] < share < UP[1] or carried < _CARRIED * self._weight:
+            if not UP[0] < share < UP[1] or carried < _CARRIED * weight:
                 swing = None
-        weight = self._weight
         load = loads[0] + loads[1]
+        looks = swing is not None or load > _HEAVY * weight
+        if not looks and not self._looked and not self.count:  # there is nothing to look at, nor to end
+            return readings
+        self._looked = looks
         spare = 0.0
         if load > _HEAVY * weight and load > _HEAVY * weight / GRAVITY * math.hypot(*accelerometer.tolist()):
             spare = load - _REST * weight

@@ -3,7 +3,7 @@ from ..base cimport pointers as memory
 
 from libc cimport math
 
-cdef double _GRAVITY, _LEAST_PULL, _CARRIES, _MOST_JITTER
+cdef double _NONE, _INFINITE, _GRAVITY, _LEAST_PULL, _CARRIES, _MOST_JITTER
 
 @cython.final
 cdef class SensorWatch:
@@ -12,19 +12,24 @@ cdef class SensorWatch:
     cdef double mass, period
     cdef bint walked
     cdef double share, least_acceleration, least_turn, least_load, first_load
-    cdef double gyro_noise, encoder_noise, noisy
+    cdef double gyro_noise, encoder_noise, noisy, older
+    cdef int readings
+    cdef readonly object later, late
+    cdef object stamps
     cdef object places, turns, loads, kept
     cdef double speed_x, speed_y, way_x, way_y, sum_load, sum_pull, sum_gyro, sum_joints
     cdef double largest_acceleration, recent_acceleration, largest_turn, recent_turn, largest_more, recent_more
     cdef double largest_less, recent_less
     cdef readonly double acceleration, turn, turn_x, turn_y, load
     cdef readonly bint turns_right
+    @cython.locals(i=int)
+    cpdef int restart_clock(self) except -1
     cpdef void skip(self) noexcept
     cpdef void end_support(self) noexcept
-    @cython.locals(found=int, least=double, pull=double, a=cython.p_double, turn=cython.p_double)
-    cpdef int update(
-        self, joints, gyro, accelerometer, position, rotation, double left_load, double right_load, left, right
-    ) except -1
+    @cython.locals(found=int, least=double, pull=double, time=double, a=cython.p_double, turn=cython.p_double)
+    cpdef int update(self, sensors, command, double left_load, double right_load, double reported) except -1
+    @cython.locals(k=int, gap=double)
+    cdef int _age(self, int side, double stamp, double time, double reported) except -1
     @cython.locals(n=int, i=int, many=double, spread=double, at=Py_ssize_t, ticks=Py_ssize_t, found=int)
     cdef int _noise(self, double* q, double* w) except -1
     @cython.locals(

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..base import memory
 
-__all__ = ["ACCELERATION", "ENCODER_NOISE", "GYRO_NOISE", "LOAD", "TURN", "SensorWatch"]
+__all__ = ["ACCELERATION", "ENCODER_NOISE", "GYRO_NOISE", "LATE", "LOAD", "SELDOM", "TURN", "SensorWatch"]
 
 # Codes, which add up
 ACCELERATION = 1  # nature: a code
@@ -14,6 +14,11 @@ TURN = 2  # nature: a code
 LOAD = 4  # nature: a code
 GYRO_NOISE = 8  # nature: a code
 ENCODER_NOISE = 16  # nature: a code
+LATE = 32  # nature: a code of the left sole; of the right one twice that
+SELDOM = 128  # nature: a code of the left sole; of the right one twice that
+
+_NONE = float("nan")
+_INFINITE = float("inf")
 
 _GRAVITY = 9.81  # nature: m/s^2
 _LEAST_PULL = 3.0  # chosen: m/s^2: soles of a robot that falls carry nothing to compare with
@@ -27,7 +32,8 @@ class SensorWatch:
     Three comparisons learn what is usual, with every single support that ends, and notice what is more than a share of
     that and a constant: the accelerometer against the base's motion by encoders and gyro, in the mean of a window; the
     turn of a sole that carries, within a window; the soles' load over the mass times the vertical specific force, more
-    and less, in the mean of a shorter window. White noise of gyro and encoders shows in their second differences.
+    and less, in the mean of a shorter window. White noise of gyro and encoders shows in their second differences. The
+    readings of a sole are late, or come seldom, beside the freshest and the most frequent ones.
 
     Args:
         joints: Number of angles.
@@ -39,6 +45,8 @@ class SensorWatch:
         share: Of what is usual.
         leasts: Constants: acceleration in m/s^2, turn in rad, load as a share; and load before the first single support
             has ended.
+        older: Time in s by which the readings of a sole are late, or come seldom.
+        readings: In turn that have to be late.
         noises: Gyro's second difference in rad/s, and encoders' in rad; and the share of the joints that show it.
 
     Attributes:
@@ -46,10 +54,13 @@ class SensorWatch:
         turn: Of a sole that carries, in the window, in rad.
         turn_x: Forward part of where that sole's normal went; `turn_y`: left part; world frame.
         turns_right: Whether it is the right sole.
+        later: Time in s by which readings of the left and the right sole come later than they did (2,), or for which
+            none has come.
+        late: Readings in turn that were late (2,).
         load: Soles' load over what the accelerometer shows.
     """
 
-    def __init__(self, joints, mass, period, window, mean, short, share, leasts, noises):
+    def __init__(self, joints, mass, period, window, mean, short, share, leasts, older, readings, noises):
         self.joints = joints
         self.mass = mass
         self.period = period
@@ -58,6 +69,12 @@ class SensorWatch:
         self.short = short
         self.share = share
         self.least_acceleration, self.least_turn, self.least_load, self.first_load = leasts
+        self.older = older
+        self.readings = readings
+        self.later = np.zeros(2)
+        self.late = np.zeros(2)
+        self.stamps = np.zeros(10)
+        self.restart_clock()
         self.gyro_noise, self.encoder_noise, self.noisy = noises
         self.places = np.zeros(2 * (window + mean))
         self.turns = np.zeros(4 * window)
@@ -90,6 +107,17 @@ class SensorWatch:
         self.turns_right = False
         self.load = 1.0
 
+    def restart_clock(self):
+        """The clock has another zero: readings have other ages."""
+        stamps = memory.room(self.stamps)
+        for i in range(2):
+            stamps[5 * i] = _NONE  # time of the last reading
+            stamps[5 * i + 1] = _NONE  # tick at which it came
+            stamps[5 * i + 2] = _INFINITE  # smallest time between two
+            stamps[5 * i + 3] = _INFINITE  # smallest age by the reported time
+            stamps[5 * i + 4] = _INFINITE  # and by the plan's
+        return 0
+
     def skip(self):
         """Ticks were missed: what was kept is not one period apart."""
         self.ticks = 0
@@ -108,25 +136,57 @@ class SensorWatch:
         self.recent_more = 0.0
         self.recent_less = 0.0
 
-    def update(self, joints, gyro, accelerometer, position, rotation, left_load, right_load, left, right):
-        """Take a tick: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in m/s^2; estimated position
-        (3,) in m and rotation (3, 3) of the base in the world; force in N on the left and the right sole, and their
-        rotations (3, 3) to the world.
+    def update(self, sensors, command, left_load, right_load, reported):
+        """Take a tick's `sensors` and the `command` that answers them.
+
+        `left_load`, `right_load`: force in N on the soles; `reported`: the tick's time in s as it came.
 
         Returns the sum of the codes of what is noticed, 0 for none.
         """
-        found = self._noise(memory.values(joints), memory.values(gyro))
-        a = memory.values(accelerometer)
-        turn = memory.values(rotation)
-        self._accelerate(memory.values(position), turn, a)
+        found = self._noise(memory.values(sensors.joint_positions), memory.values(sensors.gyro))
+        a = memory.values(sensors.accelerometer)
+        state = command.state
+        rotations = state.rotations_sole
+        turn = memory.values(state.rotation_base_to_world)
+        self._accelerate(memory.values(state.position_base), turn, a)
         pull = turn[6] * a[0] + turn[7] * a[1] + turn[8] * a[2]
         self._weigh(left_load + right_load, pull)
         least = _CARRIES * self.mass * _GRAVITY
         self.left = self.left + 1 if left_load > least else 0
         self.right = self.right + 1 if right_load > least else 0
-        self._tilt(memory.values(left), memory.values(right))
+        self._tilt(memory.values(rotations["left"]), memory.values(rotations["right"]))
         self.ticks += 1
+        readings = sensors.readings
+        time = sensors.time
+        found += 32 * self._age(0, readings["left"].time, time, reported)  # derived: `LATE`, or `SELDOM`
+        found += 64 * self._age(1, readings["right"].time, time, reported)  # derived: twice that
         return found + self._noticed()
+
+    def _age(self, side, stamp, time, reported):
+        """1 where the readings of a sole come later than they did, 4 where none has come for too long, else 0.
+
+        They have to be late by the `reported` time in s and by that of the plan, in s: after a stall the plan's is
+        behind, and a clock that stood still makes all that comes after it late.
+        """
+        stamps = memory.room(self.stamps)
+        later = memory.room(self.later)
+        late = memory.room(self.late)
+        k = 5 * side
+        gap = time - stamps[k + 1]
+        if stamp == stamps[k]:
+            if gap > self.older + 2.0 * stamps[k + 2]:
+                later[side] = gap
+                return 4  # derived: `SELDOM` over `LATE`
+            return 0
+        stamps[k] = stamp
+        stamps[k + 1] = time
+        if gap < stamps[k + 2]:
+            stamps[k + 2] = gap
+        stamps[k + 3] = min(stamps[k + 3], reported - stamp)
+        stamps[k + 4] = min(stamps[k + 4], time - stamp)
+        later[side] = min(reported - stamp - stamps[k + 3], time - stamp - stamps[k + 4])
+        late[side] = late[side] + 1.0 if later[side] > self.older else 0.0
+        return 1 if late[side] >= self.readings else 0
 
     def _noise(self, q, w):
         """Means of the second differences, of what came one period apart; the codes of those that are too large."""

@@ -1,21 +1,24 @@
 """What encoders, IMU and soles report of one motion is compared; motions that agree give no word."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from plantar import kernels
 from plantar.kernels.safety import sensor_watch
-from plantar.kernels.safety.sensor_watch import ACCELERATION, ENCODER_NOISE, GYRO_NOISE, LOAD, TURN
+from plantar.kernels.safety.sensor_watch import ACCELERATION, ENCODER_NOISE, GYRO_NOISE, LATE, LOAD, SELDOM, TURN
 from plantar.mechanics.rotation import rotation_from_vector
 
 FORMS = [sensor_watch, kernels.python_form("sensor_watch")]
 PERIOD = 0.005
 MASS = 50.0
 WEIGHT = MASS * 9.81
+NOISES = (0.045, 1e-3, 0.25)
 
 
 def watch_of(form, joints=3):
-    return form.SensorWatch(joints, MASS, PERIOD, 60, 12, 40, 2.0, (0.5, 0.07, 0.12, 0.5), (0.045, 1e-3, 0.25))
+    return form.SensorWatch(joints, MASS, PERIOD, 60, 12, 40, 2.0, (0.5, 0.07, 0.12, 0.5), 0.03, 4, NOISES)
 
 
 class Motion:
@@ -26,7 +29,7 @@ class Motion:
         self.ticks = 0
         self.rng = np.random.default_rng(3)
 
-    def tick(self, *, off=0.0, load=1.0, turn=0.0, gyro=0.0, joints=0.0):
+    def tick(self, *, off=0.0, load=1.0, turn=0.0, gyro=0.0, joints=0.0, stamp=None, clock=0.0):
         t = PERIOD * self.ticks
         self.ticks += 1
         sway = 2.0 * np.pi * t
@@ -34,17 +37,17 @@ class Motion:
         rotation = rotation_from_vector(np.array([0.0, 0.1, 0.0]))
         acceleration = (2.0 * np.pi) ** 2 * np.array([-0.05 * np.sin(sway), -0.02 * np.cos(sway), 0.0])
         specific = rotation.T @ (acceleration + np.array([off, 0.0, 9.81]))
-        return self.watch.update(
-            0.1 * np.sin(sway + np.arange(3.0)) + joints * self.rng.normal(size=3),
-            0.1 * np.cos(sway + np.arange(3.0)) + gyro * self.rng.normal(size=3),
-            specific,
-            position,
-            rotation,
-            0.6 * WEIGHT * load,
-            0.4 * WEIGHT * load,
-            np.eye(3),
-            rotation_from_vector(np.array([turn, 0.0, 0.0])),
+        sensors = SimpleNamespace(
+            time=t,
+            joint_positions=0.1 * np.sin(sway + np.arange(3.0)) + joints * self.rng.normal(size=3),
+            gyro=0.1 * np.cos(sway + np.arange(3.0)) + gyro * self.rng.normal(size=3),
+            accelerometer=specific,
+            readings={"left": SimpleNamespace(time=t), "right": SimpleNamespace(time=t if stamp is None else stamp)},
         )
+        rotations = {"left": np.eye(3), "right": rotation_from_vector(np.array([turn, 0.0, 0.0]))}
+        state = SimpleNamespace(position_base=position, rotation_base_to_world=rotation, rotations_sole=rotations)
+        loads = 0.6 * WEIGHT * load, 0.4 * WEIGHT * load
+        return self.watch.update(sensors, SimpleNamespace(state=state), *loads, t + clock)
 
     def after(self, ticks, **changes):
         """Codes of some ticks together; changes are functions of the tick, from 0."""
@@ -143,3 +146,27 @@ def test_compiled_and_interpreted_watch_agree():
         if k == 333:
             for motion in motions:
                 motion.watch.skip()
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_readings_that_come_later_or_seldom(form):
+    motion = Motion(form)
+    for k in range(60):
+        found = motion.tick(stamp=PERIOD * k if k < 30 else PERIOD * (k - 8))
+        assert bool(found & LATE << 1) == (k >= 33)
+        assert not found & LATE
+    assert motion.watch.later[1] == pytest.approx(0.04)
+    motion = Motion(form)
+    for k in range(60):
+        found = motion.tick(stamp=PERIOD * min(k, 30))
+        assert bool(found & SELDOM << 1) == (k > 38) or k == 38  # 0.03 s and two readings, to the last bit
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_clock_that_stands_or_is_behind_makes_no_sole_late(form):
+    motion = Motion(form)
+    for k in range(90):  # by the reported time it is late after the clock goes on, not by the plan's
+        assert motion.tick(clock=-0.05 if 20 <= k < 40 else 0.0) == 0
+    motion.watch.restart_clock()
+    for _ in range(40):
+        assert motion.tick(clock=5.0) == 0
