@@ -1,7 +1,7 @@
 """Fit of a taxel lattice to a sole: place and turn. In mm."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -105,10 +105,13 @@ def fit_lattice(
     if not (math.isfinite(overhang) and 0.0 <= overhang <= max(overhang, overhang_max)):
         raise InputError(f"overhang is {overhang} mm; allowed: 0 or more")
     pattern = pattern or hex_pattern(cell_area)
-    if taxels is not None:
-        overhang = _least_overhang(sole, pattern, taxels, overhang, overhang_max)
+    if taxels is None:
+        scans = _Scans(sole, pattern, overhang)
+    else:
+        scans = _least_overhang(sole, pattern, taxels, overhang, overhang_max)
+        overhang = scans.overhang
     region = sole.buffer(overhang) if overhang > 0.0 else sole
-    placements = _placements(sole, pattern, taxels, _scan(sole, pattern, overhang))
+    placements = _placements(sole, pattern, taxels, scans.all())
     if not placements:
         raise FootError(
             f"no whole cell of {pattern.area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area, "
@@ -117,29 +120,6 @@ def fit_lattice(
     best = max(placements, key=lambda p: p.score)
     best = _centred(best, sole, region, pattern)
     return LatticeFit(best.lattice, best.cells, overhang)
-
-
-def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: float, overhang_max: float) -> float:
-    steps = max(0, math.floor((overhang_max - overhang) / _OVERHANG_STEP + 1e-9))
-
-    def most(step: int) -> int:
-        return _most(_scan(sole, pattern, overhang + step * _OVERHANG_STEP))
-
-    if most(0) >= taxels:
-        return overhang
-    at_most = most(steps) if steps else most(0)
-    if at_most < taxels:
-        raise FootError(
-            f"{taxels} taxels of {pattern.area:g} mm^2 do not fit: {at_most} do with cells up to "
-            f"{overhang + steps * _OVERHANG_STEP:g} mm beyond the sole; ask for fewer or use a smaller cell area"
-        )
-    # low does not hold enough, high does
-    low = 0
-    high = steps
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if most(middle) >= taxels else (middle, high)
-    return overhang + high * _OVERHANG_STEP
 
 
 @dataclass(frozen=True)
@@ -154,9 +134,63 @@ class _Scan:
     counts: NDArray[np.int64]
 
 
-def _scan(sole: Any, pattern: CellPattern, overhang: float) -> list[_Scan]:
+class _Scans:
+    """Scans of all angles with one overhang, each made once and only when asked for: one may show enough."""
+
+    def __init__(self, sole: Any, pattern: CellPattern, overhang: float) -> None:
+        self.overhang = overhang
+        self._made: list[_Scan] = []
+        self._others = _scan(sole, pattern, overhang)
+
+    def hold(self, taxels: int) -> bool:
+        """Whether some placement holds so many whole cells."""
+        if _most(self._made) >= taxels:
+            return True
+        for scan in self._others:
+            self._made.append(scan)
+            if _most([scan]) >= taxels:
+                return True
+        return False
+
+    def all(self) -> list[_Scan]:
+        """Scan of each angle, in the order of ties."""
+        self._made.extend(self._others)
+        return self._made
+
+
+def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: float, overhang_max: float) -> _Scans:
+    """Scans at the least overhang that holds `taxels`."""
+    steps = max(0, math.floor((overhang_max - overhang) / _OVERHANG_STEP + 1e-9))
+
+    def at(step: int) -> _Scans:
+        return _Scans(sole, pattern, overhang + step * _OVERHANG_STEP)
+
+    best = at(0)
+    if best.hold(taxels):
+        return best
+    if steps:
+        best = at(steps)
+    if not best.hold(taxels):
+        raise FootError(
+            f"{taxels} taxels of {pattern.area:g} mm^2 do not fit: {_most(best.all())} do with cells up to "
+            f"{overhang + steps * _OVERHANG_STEP:g} mm beyond the sole; ask for fewer or use a smaller cell area"
+        )
+    # low does not hold enough, high does
+    low = 0
+    high = steps
+    while high - low > 1:
+        middle = (low + high) // 2
+        scans = at(middle)
+        if scans.hold(taxels):
+            high = middle
+            best = scans
+        else:
+            low = middle
+    return best
+
+
+def _scan(sole: Any, pattern: CellPattern, overhang: float) -> Iterator[_Scan]:
     region = sole.buffer(overhang) if overhang > 0.0 else sole
-    out = []
     straight = len(_straight(pattern))
     for rank, angle in enumerate([*np.radians(_angles(pattern)), *_edge_angles(sole, pattern)]):
         allowed = whole_cell_region(region, pattern.parts, float(angle))
@@ -166,8 +200,7 @@ def _scan(sole: Any, pattern: CellPattern, overhang: float) -> list[_Scan]:
         offsets = np.concatenate([_sampled_offsets(pattern, angle), _critical_offsets(allowed, pattern, lattice)])
         allowed = allowed.buffer(_ROUNDING, join_style="mitre")  # the offsets lie on its border
         shapely.prepare(allowed)
-        out.append(_Scan(rank, rank < straight, lattice.angle, allowed, offsets, _count(allowed, lattice, offsets)))
-    return out
+        yield _Scan(rank, rank < straight, lattice.angle, allowed, offsets, _count(allowed, lattice, offsets))
 
 
 def _straight(pattern: CellPattern) -> list[float]:
