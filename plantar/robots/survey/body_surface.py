@@ -57,12 +57,11 @@ def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
     """Returns triangles (n, 3, 3) of a `geom` in the world in m, of `model` and `data`."""
     kind = int(model.geom_type[geom])
     size = model.geom_size[geom]
+    turn = data.geom_xmat[geom].reshape(3, 3).T
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         corners, faces = mesh_surface(model, int(model.geom_dataid[geom]))
-        local = corners[faces]
-    else:
-        local = convex_surface(_points_of(kind, size))
-    return np.asarray(local @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom])
+        return np.asarray((corners @ turn + data.geom_xpos[geom])[faces])  # a corner is of six triangles
+    return np.asarray(convex_surface(_points_of(kind, size)) @ turn + data.geom_xpos[geom])
 
 
 def convex_surface(points: NDArray[np.float64]) -> Triangles:

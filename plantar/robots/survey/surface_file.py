@@ -60,11 +60,25 @@ def simplified(triangles: Triangles, cells: int) -> Triangles:
     low = points.min(axis=0)
     cell = max(float((points.max(axis=0) - low).max()) / cells, 1e-12)
     places = np.floor((points - low) / cell + 0.5).astype(np.int64)
-    _, first, corner = np.unique(places, axis=0, return_index=True, return_inverse=True)
+    first, corner = _distinct(places)
     faces = corner.reshape(-1, 3)
     faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
-    _, kept = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    kept, _ = _distinct(np.sort(faces, axis=1))
     return np.asarray(points[first][faces[np.sort(kept)]])
+
+
+def _distinct(rows: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Index of the first of each distinct row of `rows` (n, 3), in the rows' order, and each row's place among these.
+
+    As `np.unique` along an axis, which compares rows byte by byte: several times as slow.
+    """
+    order = np.lexsort(rows.T[::-1])
+    ordered = rows[order]
+    begins = np.ones(len(rows), dtype=bool)
+    begins[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    place = np.empty(len(rows), dtype=np.int64)
+    place[order] = np.cumsum(begins) - 1
+    return order[begins], place
 
 
 def _size(path: Path) -> int:
