@@ -58,7 +58,7 @@ def put_rows(values: NDArray[np.float64], first: int, block: NDArray[np.float64]
         values[first : first + len(block)] = block
         return
     at = values.ctypes.data - pages.address + first * values.shape[1] * 8
-    left = memoryview(np.ascontiguousarray(block, dtype=float).tobytes())
+    left = np.ascontiguousarray(block, dtype=float).reshape(-1).view(np.uint8).data
     while len(left):
         try:
             written = os.pwrite(pages.file, left, at)
