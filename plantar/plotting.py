@@ -194,11 +194,14 @@ def thinned(
     if len(x) <= most:
         return x, y
     block = -(-2 * len(x) // most)
-    keep: list[int] = []
-    for start in range(0, len(x), block):
-        part = y[start : start + block]
-        if np.isfinite(part).any():
-            keep += sorted({start + int(np.nanargmin(part)), start + int(np.nanargmax(part))})
-        else:
-            keep.append(start)
+    starts = np.arange(0, len(y), block)
+    stretches = np.full((len(starts), block), np.nan)
+    stretches.reshape(-1)[: len(y)] = y
+    known = np.isfinite(stretches).any(axis=1)
+    low = np.where(np.isnan(stretches), np.inf, stretches).argmin(axis=1)
+    high = np.where(np.isnan(stretches), -np.inf, stretches).argmax(axis=1)
+    ends = starts[:, None] + np.sort(np.stack([low, high], axis=1), axis=1)
+    wanted = np.stack([np.ones_like(known), known & (low != high)], axis=1)
+    ends[~known, 0] = starts[~known]
+    keep = ends[wanted]
     return x[keep], y[keep]
