@@ -38,7 +38,7 @@ _WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")  # Units that the ex
 # what a processor's cache holds as text and numbers
 _BLOCK = 2048
 _BLOCK_VALUES = 4_000_000
-_CHARACTERS = 60_000
+_CHARACTERS = 250_000
 _LATEST = 1e9  # Time in s from which a line is damaged
 
 
