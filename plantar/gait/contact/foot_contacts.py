@@ -49,7 +49,7 @@ def middle_of_sole(
 
     `reach` is the distance in m along the sole at which the ankle bears the robot, `limits` by torques.
     """
-    outline = on_its_hull(layout).outline
+    outline = _carrying_outline(layout)
     middle = loaded_middle(outline, reach)
     best = _loaded(outline, reach, limits)
     near = limits is not None and math.dist(middle, best) <= _ASIDE * signed_margin(limits.within(outline), best)
@@ -71,9 +71,15 @@ def _loaded(
 
 def on_its_hull(layout: SoleLayout) -> SoleLayout:
     """Returns the `layout` with its outline's convex hull, which carries a rigid sole."""
+    outline = _carrying_outline(layout)
+    return layout if outline is layout.outline else replace(layout, outline=outline)
+
+
+def _carrying_outline(layout: SoleLayout) -> NDArray[np.float64]:
+    """Convex hull (k, 2) of a layout's outline in m; the outline itself where it is convex."""
     hull = convex_hull(layout.outline)
     # nature: floating point, far above an area's roundings
-    return layout if area(layout.outline) >= (1.0 - 1e-9) * area(hull) else replace(layout, outline=hull)
+    return layout.outline if area(layout.outline) >= (1.0 - 1e-9) * area(hull) else hull
 
 
 @dataclass(frozen=True)
