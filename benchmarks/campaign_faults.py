@@ -332,6 +332,7 @@ WHY_LATE: Mapping[str, str] = MappingProxyType(
         "a third of the right taxels reads NaN": _AIR,
         "taxel order of the left sole reversed": "a flat sole's load is the same; shows as the body falls",
         "soles swapped": "both carry the same while the robot stands",
+        "soles report half": "until the first single support has ended half is allowed",
         "soles with noise of 3 N": "twice the noise of a sound sole",
         "a left taxel is silent": "so is one over a gap of the ground",
         "a left taxel reads 60 N": _STONE,
