@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.gait.command import Command, Sensors
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
@@ -155,7 +156,8 @@ class Supervision:
             joints = len(sensors.joint_positions)
             leasts = (_ACCELERATION, _TURN, *_LOAD)
             ages = (_OLDER, _OLDER_FOR)
-            watch = SensorWatch(joints, self._mass, self._period, window, mean, short, _SHARE, leasts, *ages, _NOISES)
+            sizes = (window, mean, short)
+            watch = SensorWatch(joints, self._mass, GRAVITY, self._period, *sizes, _SHARE, leasts, *ages, _NOISES)
             self._watch = watch
         stance = command.phase.stance
         if stance is not self._stance:

@@ -3,13 +3,13 @@ from ..base cimport pointers as memory
 
 from libc cimport math
 
-cdef double _NONE, _INFINITE, _GRAVITY, _LEAST_PULL, _CARRIES, _MOST_JITTER
+cdef double _NONE, _INFINITE, _LEAST_PULL, _CARRIES, _MOST_JITTER
 
 @cython.final
 cdef class SensorWatch:
     cdef int joints, window, mean, short, left, right
     cdef Py_ssize_t ticks
-    cdef double mass, period
+    cdef double mass, gravity, period
     cdef bint walked
     cdef double share, least_acceleration, least_turn, least_load, first_load
     cdef double gyro_noise, encoder_noise, noisy, older

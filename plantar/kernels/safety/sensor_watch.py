@@ -20,7 +20,6 @@ SELDOM = 128  # nature: a code of the left sole; of the right one twice that
 _NONE = float("nan")
 _INFINITE = float("inf")
 
-_GRAVITY = 9.81  # nature: m/s^2
 _LEAST_PULL = 3.0  # chosen: m/s^2: soles of a robot that falls carry nothing to compare with
 _CARRIES = 0.3  # chosen: weight on a sole that does not turn; less may still come down
 _MOST_JITTER = 0.3  # chosen: rad/s: a shock counts as that much, so that it ends with the window
@@ -38,6 +37,7 @@ class SensorWatch:
     Args:
         joints: Number of angles.
         mass: Robot's in kg.
+        gravity: In m/s^2.
         period: Of control in s.
         window: Of acceleration and turn in ticks.
         mean: Ticks by which positions are differenced into speeds.
@@ -60,9 +60,10 @@ class SensorWatch:
         load: Soles' load over what the accelerometer shows.
     """
 
-    def __init__(self, joints, mass, period, window, mean, short, share, leasts, older, readings, noises):
+    def __init__(self, joints, mass, gravity, period, window, mean, short, share, leasts, older, readings, noises):
         self.joints = joints
         self.mass = mass
+        self.gravity = gravity
         self.period = period
         self.window = window
         self.mean = mean
@@ -151,7 +152,7 @@ class SensorWatch:
         self._accelerate(memory.values(state.position_base), turn, a)
         pull = turn[6] * a[0] + turn[7] * a[1] + turn[8] * a[2]
         self._weigh(left_load + right_load, pull)
-        least = _CARRIES * self.mass * _GRAVITY
+        least = _CARRIES * self.mass * self.gravity
         self.left = self.left + 1 if left_load > least else 0
         self.right = self.right + 1 if right_load > least else 0
         self._tilt(memory.values(rotations["left"]), memory.values(rotations["right"]))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from plantar import kernels
+from plantar.common.gravity import GRAVITY
 from plantar.kernels.safety import sensor_watch
 from plantar.kernels.safety.sensor_watch import ACCELERATION, ENCODER_NOISE, GYRO_NOISE, LATE, LOAD, SELDOM, TURN
 from plantar.mechanics.rotation import rotation_from_vector
@@ -13,12 +14,12 @@ from plantar.mechanics.rotation import rotation_from_vector
 FORMS = [sensor_watch, kernels.python_form("sensor_watch")]
 PERIOD = 0.005
 MASS = 50.0
-WEIGHT = MASS * 9.81
+WEIGHT = MASS * GRAVITY
 NOISES = (0.045, 1e-3, 0.25)
 
 
 def watch_of(form, joints=3):
-    return form.SensorWatch(joints, MASS, PERIOD, 60, 12, 40, 2.0, (0.5, 0.07, 0.12, 0.5), 0.03, 4, NOISES)
+    return form.SensorWatch(joints, MASS, GRAVITY, PERIOD, 60, 12, 40, 2.0, (0.5, 0.07, 0.12, 0.5), 0.03, 4, NOISES)
 
 
 class Motion:
