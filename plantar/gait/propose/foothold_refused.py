@@ -34,9 +34,8 @@ from plantar.geometry.polygon import signed_margin
 from plantar.layouts.layout import SoleLayout
 
 _LASTING = 4  # chosen: control ticks for which ground has to look higher than expected; 20 ms
-_HALVINGS = (
-    6  # chosen: of an extension that is too long: a sixty-fourth of 0.7 s is two ticks; a time alone depends on it
-)
+# chosen: of an extension that is too long: a sixty-fourth of 0.7 s is two ticks; a time alone depends on it
+_HALVINGS = 6
 
 
 class _State(Enum):

@@ -17,6 +17,7 @@ from plantar.common.settings.schema import Settings, number, tables, text, whole
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.mechanics.rotation import rotation_from_angles
+from plantar.mujoco.ray_depth import ray_to_geom
 from plantar.sensing.link_skin import BodySkin, SkinPatch
 
 OBSTACLE_GROUP = 3
@@ -142,11 +143,7 @@ def _meet(
     normal = np.zeros(3)
     for i, (start, way) in enumerate(zip(starts @ turn.T + place, ways @ turn.T, strict=True)):
         for g in geoms:
-            if model.geom_type[g] == mujoco.mjtGeom.mjGEOM_MESH:
-                length = mujoco.mj_rayMesh(model, data, g, start, way, normal)
-            else:
-                solid = (data.geom_xpos[g], data.geom_xmat[g], model.geom_size[g])
-                length = mujoco.mju_rayGeom(*solid, start, way, int(model.geom_type[g]), normal)
+            length = ray_to_geom(model, data, g, start, way, normal)
             if length >= 0.0 and (lengths[i] < 0.0 or length < lengths[i]):
                 lengths[i] = length
                 normals[i] = normal @ turn
