@@ -247,7 +247,7 @@ class SafetyShell:
             self.reason = "angles, IMU or soles missing"
             return self._bridge(time)
         if self.commanded is not None:
-            sensors = self._supervision.followed(sensors, self.commanded, self._body)
+            sensors = self._supervision.followed(sensors, self.commanded, self._body, self._last)
         problem = self._problem(sensors)
         if problem:
             self.reason = _PROBLEMS[problem]

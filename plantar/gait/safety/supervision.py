@@ -1,9 +1,11 @@
 """Supervision: what drives, encoders, IMU and soles report of one motion has to agree.
 
 It notes what does not, for whoever reads the log. Of one joint that does not follow its targets, or two, it takes the
-targets; where most do not, or soles are late, it calls that grave.
+targets, unless the standing sole shows that the joint is where its encoder has it: a drive at its torque limit does not
+follow either. Where most joints do not, or soles are late, it calls that grave.
 """
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -37,6 +39,9 @@ _MISSES = (0.06, 0.35, 0.03)
 _OFF = 0.1  # chosen: rad: three times that, beyond which a robot does not walk on where more joints miss than two
 _OFF_FOR = 0.015  # chosen: s after which it counts; three ticks
 _SETTLED = 0.25  # chosen: s of standing after which its errors count as usual
+# derived: of what a joint misses its target by, that its standing sole turns by: all of it where its encoder is wrong,
+# nothing where it is right; half is between
+_STILL = 0.5
 _MOST_TAKEN = 2  # chosen: joints whose encoders fail at a time; more are moved from outside, as by a blow
 _OPENING = 0.5  # derived: s in which the estimator averages gravity, and its state may jump
 _ACCELERATION = 0.5  # measured: m/s^2: a push reaches 0.36, all else 0.1
@@ -87,6 +92,8 @@ class Supervision:
         self._named = ""
         self._moved = 0
         self._taken: set[int] = set()
+        self._true: set[int] = set()
+        self._stood: tuple[Side | None, NDArray[np.float64]] = (None, np.eye(3))
         self.grave = ""
         self.tracking: TrackingCheck | None = None
 
@@ -100,12 +107,18 @@ class Supervision:
         if self._watch is not None:
             self._watch.skip()
 
-    def followed(self, sensors: Sensors, commanded: NDArray[np.float64], body: BodyCheck | None) -> Sensors:
-        """Sensors with the commanded angle of a joint that does not follow.
+    def followed(
+        self, sensors: Sensors, commanded: NDArray[np.float64], body: BodyCheck | None, last: Command
+    ) -> Sensors:
+        """Sensors with the commanded angle of a joint that does not follow, unless its encoder is shown to be right.
 
         `commanded`: angles (k,) in rad that the drives were given before the `sensors` were read; `body`: which
-        finds jumps of encoders, that are taken off later on, and compares angles with those of the last tick.
+        finds jumps of encoders, that are taken off later on, and compares angles with those of the last tick; `last`:
+        command of the last tick, whose state was estimated by the angles that it took.
         """
+        if last.phase.stance is not self._stood[0]:
+            stance = last.phase.stance
+            self._stood = (stance, np.eye(3) if stance is None else last.state.rotations_sole[stance])
         if len(sensors.joint_positions) != len(commanded):
             return sensors
         tracking = self.tracking
@@ -119,7 +132,12 @@ class Supervision:
         far = tracking.update(measured if slips is None else measured - slips, commanded)
         count = tracking.noticed_count
         if count or self._taken:
-            taken = set(np.flatnonzero(tracking.noticed).tolist()) if 0 < count <= _MOST_TAKEN else set()
+            noticed = set(np.flatnonzero(tracking.noticed).tolist())
+            self._true &= noticed
+            for joint in noticed - self._true - self._taken:
+                if self._is_true(joint, measured if slips is None else measured - slips, commanded, last):
+                    self._true.add(joint)
+            taken = noticed - self._true if 0 < count <= _MOST_TAKEN else set()
             if body is not None:
                 for joint in taken ^ self._taken:
                     body.forget(joint)
@@ -137,8 +155,23 @@ class Supervision:
         if not self._taken:
             return sensors
         given = commanded if slips is None else commanded + slips
-        angles = np.where(tracking.noticed > 0.0, given, measured)
+        angles = measured.copy()
+        for joint in self._taken:
+            angles[joint] = given[joint]
         return sensors.changed(joint_positions=angles)
+
+    def _is_true(self, joint: int, angles: NDArray[np.float64], commanded: NDArray[np.float64], last: Command) -> bool:
+        """Whether a joint is where its encoder has it, and its drive is too weak: by a wrong angle of the standing leg
+        its sole would have turned by as much as the joint misses its target.
+        """
+        stance, stood = self._stood
+        leg = len(angles) // 2
+        if stance is None or len(angles) % 2 or SIDES[joint // leg] != stance:
+            return False
+        # nature: the trace of a rotation is 1 + 2 cos of its angle
+        cosine = 0.5 * (float((stood * last.state.rotations_sole[stance]).sum()) - 1.0)
+        turn = math.acos(min(1.0, max(-1.0, cosine)))
+        return turn < _STILL * abs(float(angles[joint] - commanded[joint]))
 
     def compare(self, sensors: Sensors, command: Command, soles: SoleCheck, reported: float) -> None:
         """Compare a tick's `sensors` with the state of the `command` that answers them.

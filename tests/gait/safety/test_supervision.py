@@ -66,6 +66,17 @@ def stuck():
     return change
 
 
+def drifting(joint, rate):
+    """An encoder of the standing leg that goes away by a rate in rad/s."""
+
+    def change(sensors, since):
+        angles = sensors.joint_positions.copy()
+        angles[joint] += rate * since
+        return sensors.changed(joint_positions=angles)
+
+    return change
+
+
 def noise(name, size):
     rng = np.random.default_rng(1)
 
@@ -109,6 +120,40 @@ def test_a_fault_is_noted_in_a_third_of_a_second_and_the_robot_stays_up(name):
 @pytest.mark.parametrize("settings", [(), ("plant=random", "plant.level=3")])
 def test_a_sound_walk_has_no_note(settings):
     assert Walk(*settings).until(7.0) == []
+
+
+@pytest.mark.parametrize("joint", [7, 9])
+def test_an_encoder_of_the_standing_leg_that_drifts_is_replaced(joint):
+    """By its hip or its knee the standing sole turns, which shows that the encoder is wrong."""
+    walk = Walk()
+    walk.until(BEGIN + 0.3)
+    assert walk.run.controller.schedule.at(BEGIN + 0.3).stance == "right"
+    walk.until(BEGIN + 0.7, drifting(joint, 0.4))
+    assert walk.run.controller.schedule.at(BEGIN + 0.7).stance == "right"
+    assert walk.run.controller.shell._supervision._taken == {joint}
+
+
+def test_a_drive_at_its_torque_limit_is_no_wrong_encoder():
+    """The hip of a leg that holds the robot for long misses its target by more than a walk does."""
+    run = Simulation(load_scene("feasibility-3", ["paper=T", "settle=0.3"], "h1"), 63)
+    supervision = run.controller.shell._supervision
+    step = run.controller.step
+    noticed = set()
+    taken = set()
+
+    def watched(sensors):
+        command = step(sensors)
+        if supervision.tracking is not None:
+            noticed.update(np.flatnonzero(supervision.tracking.noticed).tolist())
+        taken.update(supervision._taken)
+        return command
+
+    run.controller.step = watched
+    summary = run.run()
+    assert noticed
+    assert not taken
+    assert not summary["emergency_stop"]
+    assert not summary["fell"]
 
 
 def test_soles_that_are_too_late_to_walk_by_make_it_sit_down():
