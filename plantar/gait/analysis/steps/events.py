@@ -5,10 +5,12 @@ its level, or midway in a jump of half the range; an insole's landing is straigh
 its push-off to where its fall ends, by up to a hundredth of a second.
 """
 
-from collections.abc import Mapping
+import math
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import cast
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -254,53 +256,73 @@ def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> lis
     return [(int(a), int(b)) for a, b in zip(starts, stops, strict=True)]
 
 
+class _Curve(NamedTuple):
+    """Times in s and vertical force in N of a span's frames, as views that give plain numbers faster than an array."""
+
+    time: Sequence[float]
+    force: Sequence[float]
+
+    def first_from(self, begin: int, end: int, level: float) -> int | None:
+        """First frame from `begin` to before `end` with a level's force or more; None without."""
+        return next((i for i in range(begin, end) if self.force[i] >= level), None)
+
+    def last_from(self, begin: int, end: int, level: float) -> int | None:
+        """Last frame from `begin` to before `end` with a level's force or more; None without."""
+        return next((i for i in range(end - 1, begin - 1, -1) if self.force[i] >= level), None)
+
+    def crossing(self, frame: int, level: float, jump: float = math.inf) -> float:
+        """Time the force crosses the level between a frame and the last: midway in jumps."""
+        f0 = self.force[frame - 1]
+        f1 = self.force[frame]
+        before = self.time[frame - 1]
+        after = self.time[frame]
+        share = 0.5 if f0 == f1 or abs(f1 - f0) > jump else min(max((level - f0) / (f1 - f0), 0.0), 1.0)
+        return float(before + share * (after - before))
+
+
 def _contacts_of_span(
     time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, offset: int, minimum_stance: float
 ) -> list[Contact]:
-    found = [
-        _contact(time, force, levels, span, offset)
-        for span in _merged(time, force, levels, true_runs(force >= levels.release))
-    ]
+    curve = _Curve(cast(Sequence[float], time.data), cast(Sequence[float], force.data))
+    spans = _merged(curve, force, levels, true_runs(force >= levels.release))
+    found = [_contact(curve, levels, span, offset) for span in spans]
     return [c for c in found if not c.complete or cast(float, c.toe_off) - cast(float, c.heel_strike) >= minimum_stance]
 
 
 def _merged(
-    time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, spans: list[tuple[int, int]]
+    curve: _Curve, force: NDArray[np.float64], levels: Levels, spans: list[tuple[int, int]]
 ) -> list[tuple[int, int]]:
     reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
     merged: list[tuple[int, int]] = []
     for i, k in enumerate(reaching):
         # Off the ground between two contacts only if the force stays below the event level for long enough: a foot
         # that lands lightly and chatters does not.
-        if i and _longest_gap(time, force, spans[reaching[i - 1] : k + 1], levels.release) < MINIMUM_SWING:
+        if i and _longest_gap(curve, spans[reaching[i - 1] : k + 1], levels.release) < MINIMUM_SWING:
             merged[-1] = (merged[-1][0], spans[k][1])
         else:
             merged.append(spans[k])
     return merged
 
 
-def _contact(
-    time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, span: tuple[int, int], offset: int
-) -> Contact:
+def _contact(curve: _Curve, levels: Levels, span: tuple[int, int], offset: int) -> Contact:
     begin, end = span
+    force = curve.force
     jump = 0.5 * (levels.peak - levels.rest)
-    strike = _crossing(time, force, begin, levels.release, jump) if begin > 0 else None
+    strike = curve.crossing(begin, levels.release, jump) if begin > 0 else None
     if strike is not None and levels.clear is not None and force[begin] - force[begin - 1] <= jump:
-        strike = _begin_of_rise(time, force, span, levels, strike)
+        strike = _begin_of_rise(curve, span, levels, strike)
     lift = None
     if end < len(force):
         level = min(levels.lift, levels.contact)
-        end = begin + int(np.flatnonzero(force[begin:end] >= level)[-1]) + 1
-        lift = _crossing(time, force, end, level, jump)
+        end = cast(int, curve.last_from(begin, end, level)) + 1
+        lift = curve.crossing(end, level, jump)
         if levels.clear is not None and force[end - 1] - force[end] <= jump:
-            lift = _end_of_push_off(time, force, (begin, end), levels, lift)
-            end = max(end, int(np.searchsorted(time, lift)))
+            lift = _end_of_push_off(curve, (begin, end), levels, lift)
+            end = max(end, bisect_left(curve.time, lift))
     return Contact(strike, lift, begin + offset, end + offset)
 
 
-def _begin_of_rise(
-    time: NDArray[np.float64], force: NDArray[np.float64], span: tuple[int, int], levels: Levels, strike: float
-) -> float:
+def _begin_of_rise(curve: _Curve, span: tuple[int, int], levels: Levels, strike: float) -> float:
     """Begin of a landing's rise, continued back straight: not before the force leaves its rest."""
     begin, end = span
     assert levels.clear is not None
@@ -308,75 +330,64 @@ def _begin_of_rise(
     heights = [levels.release]
     for share in _RISE:
         level = levels.rest + share * (levels.peak - levels.rest)
-        above = np.flatnonzero(force[begin:end] >= level)
-        if not len(above) or level <= heights[-1]:
+        above = curve.first_from(begin, end, level)
+        if above is None or level <= heights[-1]:
             return strike
-        at.append(max(_crossing(time, force, begin + int(above[0]), level), at[-1]))
+        at.append(max(curve.crossing(above, level), at[-1]))
         heights.append(level)
     slow = [(b - a) / (h - g) for a, b, g, h in zip(at, at[1:], heights, heights[1:], strict=False)]
-    steepest = int(np.argmin(slow))
+    steepest = slow.index(min(slow))
     straight = at[steepest] - slow[steepest] * (heights[steepest] - levels.rest)
-    first = int(np.searchsorted(time, strike - _BESIDE))
-    before = first + np.flatnonzero(force[first:begin] <= levels.clear)
-    least = _crossing(time, force, int(before[-1]) + 1, levels.clear) if len(before) else strike
+    first = bisect_left(curve.time, strike - _BESIDE)
+    before = next((i for i in range(begin - 1, first - 1, -1) if curve.force[i] <= levels.clear), None)
+    least = strike if before is None else curve.crossing(before + 1, levels.clear)
     least -= slow[steepest] * (levels.clear - levels.rest)
-    loaded = np.flatnonzero(force[begin:end] >= levels.rest + _STATED_RISE * (levels.peak - levels.rest))
-    stated = _crossing(time, force, begin + int(loaded[0]), levels.rest + _STATED_RISE * (levels.peak - levels.rest))
+    level = levels.rest + _STATED_RISE * (levels.peak - levels.rest)
+    stated = curve.crossing(cast(int, curve.first_from(begin, end, level)), level)
     return max(min(strike, max(straight, least)), stated - _BEFORE)
 
 
-def _end_of_push_off(
-    time: NDArray[np.float64], force: NDArray[np.float64], span: tuple[int, int], levels: Levels, lift: float
-) -> float:
+def _end_of_push_off(curve: _Curve, span: tuple[int, int], levels: Levels, lift: float) -> float:
     """End of push-off, continued straight: after `lift`, not after the force is clear."""
     begin, end = span
     assert levels.clear is not None
-    after = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1]
+    time = curve.time
+    force = curve.force
+    until = bisect_left(time, time[end] + _BESIDE) + 1
     at = []
     for share in _FALL:
         level = levels.rest + share * (levels.peak - levels.rest)
-        loaded = np.flatnonzero(force[begin:end] >= level)
-        below = np.flatnonzero(after < level) if level < force[end - 1] else loaded[-1:] + 1 + begin - end
-        at.append(_crossing(time, force, end + int(below[0]), level) if len(loaded) and len(below) else np.inf)
+        loaded = curve.last_from(begin, end, level)
+        below = None if loaded is None else loaded + 1
+        if level < force[end - 1]:
+            below = next((i for i in range(end, min(until, len(force))) if force[i] < level), None)
+        at.append(np.inf if loaded is None or below is None else curve.crossing(below, level))
     slow = [
         (b - a) / (g - h) if a < b < np.inf else np.inf
         for a, b, g, h in zip(at, at[1:], _FALL, _FALL[1:], strict=False)
     ]
-    piece = int(np.argmin(slow[:2]))
-    if not np.isfinite(slow[piece]):
+    piece = 0 if slow[0] <= slow[1] else 1
+    if not math.isfinite(slow[piece]):
         return lift  # a light contact
     quickest = slow[piece]
     while piece + 1 < len(slow) and slow[piece + 1] * _SHELF <= quickest:
         piece += 1  # the foot still unloads, if more slowly
     straight = at[piece + 1] + slow[piece] * _FALL[piece + 1]
-    stop = int(np.searchsorted(time, straight))
-    light = np.flatnonzero(force[end : stop + 1] <= levels.clear)
-    if len(light):
-        clear = _crossing(time, force, end + int(light[0]), levels.clear)
+    stop = bisect_left(time, straight)
+    light = next((i for i in range(end, min(stop + 1, len(force))) if force[i] <= levels.clear), None)
+    if light is not None:
+        clear = curve.crossing(light, levels.clear)
         straight = min(straight, clear + slow[piece] * (levels.clear - levels.rest))
     level = levels.rest + _STATED_FALL * (levels.peak - levels.rest)
-    loaded = begin + np.flatnonzero(force[begin:end] >= level)
-    stated = _crossing(time, force, int(loaded[-1]) + 1, level) if len(loaded) else lift
-    return min(max(lift, min(straight, float(time[-1]))), stated + _AFTER)
+    last = curve.last_from(begin, end, level)
+    stated = lift if last is None else curve.crossing(last + 1, level)
+    return min(max(lift, min(straight, time[-1])), stated + _AFTER)
 
 
-def _longest_gap(
-    time: NDArray[np.float64], force: NDArray[np.float64], spans: list[tuple[int, int]], level: float
-) -> float:
+def _longest_gap(curve: _Curve, spans: list[tuple[int, int]], level: float) -> float:
     return max(
-        _crossing(time, force, later[0], level) - _crossing(time, force, earlier[1], level)
-        for earlier, later in pairwise(spans)
+        curve.crossing(later[0], level) - curve.crossing(earlier[1], level) for earlier, later in pairwise(spans)
     )
-
-
-def _crossing(
-    time: NDArray[np.float64], force: NDArray[np.float64], frame: int, level: float, jump: float = np.inf
-) -> float:
-    """Time the force crosses the level between a frame and the last: midway in jumps."""
-    f0, f1 = force[frame - 1 : frame + 1].tolist()
-    before, after = time[frame - 1 : frame + 1].tolist()
-    share = 0.5 if f0 == f1 or abs(f1 - f0) > jump else min(max((level - f0) / (f1 - f0), 0.0), 1.0)
-    return float(before + share * (after - before))
 
 
 def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contact: Contact) -> int:
