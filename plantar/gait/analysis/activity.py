@@ -19,10 +19,9 @@ _HALF = 52.0
 _STEADY = 0.5
 _WHOLE = 0.9
 _STRIDE = 1.0  # Time in s of a stride: less does not show whether a foot is lifted
-# Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
-# 0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55
-# where the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more.
-_ENDS = 0.12
+# Shares of the sole's length: the CoP lands in front of 0.6 on the forefoot (the heads of the metatarsals are at 0.7;
+# a heel strike is below 0.33), stays in front of 0.55 where the heel never carries, and comes back by 0.15 where it
+# does; from toes to heel it goes by 0.3 or more.
 _FOREFOOT = 0.6
 _NO_HEEL = 0.55
 _DOWN = 0.15
@@ -108,22 +107,7 @@ def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
 
 def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
     """CoP at landing, lift-off and hindmost, in shares of the sole (steps, 3)."""
-    layout = gait.foot.layout
-    cop = gait.cop
-    if layout is None or cop is None or recording.kind not in ("insole", "robot"):
-        return np.zeros((0, 3))
-    back = float(layout.outline[:, 0].min())
-    front = float(layout.outline[:, 0].max())
-    rows = []
-    for step in gait.used:
-        along = (cop[step.contact.begin : step.contact.end, 0] - back) / (front - back)
-        along = along[np.isfinite(along)]
-        few = max(1, round(_ENDS * len(along)))
-        if len(along) >= 5:
-            rows.append(
-                (along[:few].mean(), along[-few:].mean(), np.partition(along, len(along) // 20)[len(along) // 20])
-            )
-    return np.array(rows).reshape(-1, 3)
+    return gait.rolls if recording.kind in ("insole", "robot") else np.zeros((0, 3))
 
 
 def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity | None:

@@ -2,7 +2,7 @@
 
 import math
 from bisect import bisect
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import accumulate
 from typing import cast
@@ -41,7 +41,7 @@ from plantar.gait.analysis.steps.step_footprint import (
     print_of_contact,
     with_picture,
 )
-from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
+from plantar.gait.analysis.steps.step_load import CACHED, StepLoad, StepLoads, cell_threshold, usual_step
 from plantar.gait.analysis.steps.step_measures import step_measures
 from plantar.gait.analysis.steps.step_times import OtherFoot, longest_strides, stride_times, time_measures
 from plantar.gait.analysis.steps.walk_geometry import Place, step_geometry
@@ -252,11 +252,8 @@ def analyse_foot(
     lengths = iter(_inertial(recording, gait))
     before = dict(zip(map(id, gait.contacts), [None, *gait.contacts], strict=False))
     steps: list[Step] = []
-    platform = recording.kind == "platform"
     robot = recording.kind == "robot" and not recording.raw
-    for group in [[c] for c in complete] if platform else loads.blocks(complete):
-        load = loads.of(*group)
-        print_, region = footprint_of_step(recording, gait, loads, group[0], prints)
+    for group, load, print_, region in _loads(recording, gait, loads, complete, prints):
         regions = _regions(
             gait, load, region, print_, [cast(float, c.toe_off) - cast(float, c.heel_strike) for c in group]
         )
@@ -271,6 +268,21 @@ def analyse_foot(
             steps.append(Step(side, len(steps) + 1, strike, lift, contact, measures, own, print_, region))
     gait = replace(gait, steps=tuple(steps))
     return replace(gait, warnings=tuple(_doubts(recording, gait)))
+
+
+def _loads(
+    recording: PressureRecording,
+    gait: FootGait,
+    loads: StepLoads,
+    contacts: Sequence[Contact],
+    prints: Sequence[PlatformPrint],
+) -> Iterator[tuple[list[Contact], StepLoad, Footprint | None, NDArray[np.int64] | None]]:
+    """Contacts with their load, footprint and cells' regions; on a platform each alone, for it has its own print."""
+    for group in [[c] for c in contacts] if recording.kind == "platform" else loads.blocks(contacts):
+        print_, region = footprint_of_step(recording, gait, loads, group[0], prints)
+        frame = usual_step(loads.times(group))
+        for part in loads.blocks(group, CACHED):
+            yield part, loads.of(*part, frame=frame), print_, region
 
 
 def _inertial(recording: PressureRecording, gait: FootGait) -> list[float]:

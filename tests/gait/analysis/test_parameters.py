@@ -25,6 +25,19 @@ def test_contact_area_of_a_uniform_load_is_the_loaded_area(walk):
             assert step["cop_excursion_ap_m"] < 1e-9
 
 
+def test_measures_do_not_depend_on_how_many_contacts_are_measured_at_once(walk, monkeypatch):
+    made = walk(steps=12, rate=101.0, noise=1.4715)
+    at_once = analyse_foot(made.recording, "left").steps
+    monkeypatch.setattr("plantar.gait.analysis.parameters.CACHED", 1)
+    alone = analyse_foot(made.recording, "left").steps
+    assert len(at_once) == len(alone) > 3
+    for one, other in zip(at_once, alone, strict=True):
+        assert one.measures == pytest.approx(other.measures, rel=1e-12, nan_ok=True)
+        assert one.regions.keys() == other.regions.keys()
+        for region, values in one.regions.items():
+            assert values == pytest.approx(other.regions[region], rel=1e-12, nan_ok=True)
+
+
 def test_walk_as_a_whole(walk):
     made = walk(steps=20, noise=1.4715)
     feet = {side: analyse_foot(made.recording, side) for side in made.recording.feet}

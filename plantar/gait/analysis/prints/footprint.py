@@ -122,15 +122,19 @@ class Footprint:
         at = 2.0 / 3.0 * self.length
         return at, self.width_at(at)
 
+    @cached_property
+    def _axes(self) -> NDArray[np.float64]:
+        """Directions of u and v in the cells' frame, as columns."""
+        across = np.array([-self.axis[1], self.axis[0]]) * (1.0 if self.side == "right" else -1.0)
+        return np.column_stack([self.axis, across])
+
     def in_foot(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points (m, 2) of the cells' frame as (u, v)."""
-        across = np.array([-self.axis[1], self.axis[0]]) * (1.0 if self.side == "right" else -1.0)
-        return np.asarray((points - self.origin) @ np.column_stack([self.axis, across]))
+        return np.asarray((points - self.origin) @ self._axes)
 
     def from_foot(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points (m, 2) as (u, v) in the cells' frame."""
-        across = np.array([-self.axis[1], self.axis[0]]) * (1.0 if self.side == "right" else -1.0)
-        return np.asarray(self.origin + points @ np.vstack([self.axis, across]))
+        return np.asarray(self.origin + points @ np.ascontiguousarray(self._axes.T))
 
 
 def footprint_of_cells(

@@ -13,6 +13,8 @@ from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.steps.events import Contact, Levels
 from plantar.recordings.pressure_recording import FootRecording
 
+_ENDS = 0.12  # Part of a contact that is its landing, or its lift-off
+
 
 @dataclass(frozen=True, eq=False)
 class Step:
@@ -92,6 +94,27 @@ class FootGait:
     def used(self) -> tuple[Step, ...]:
         """Steps in the means."""
         return tuple(step for step in self.steps if step.used)
+
+    @cached_property
+    def rolls(self) -> NDArray[np.float64]:
+        """CoP at landing, lift-off and hindmost of each used step with five or more positions, in shares of the sole.
+
+        (steps, 3); empty without layout.
+        """
+        if self.foot.layout is None or self.cop is None:
+            return np.zeros((0, 3))
+        outline = self.foot.layout.outline[:, 0]
+        back = float(outline.min())
+        whole = (self.cop[:, 0] - back) / (float(outline.max()) - back)
+        rows = []
+        for step in self.used:
+            along = whole[step.contact.begin : step.contact.end]
+            along = along[np.isfinite(along)]
+            few = max(1, round(_ENDS * len(along)))
+            if len(along) >= 5:
+                hindmost = len(along) // 20
+                rows.append((along[:few].mean(), along[-few:].mean(), np.partition(along, hindmost)[hindmost]))
+        return np.array(rows).reshape(-1, 3)
 
     @cached_property
     def columns(self) -> Mapping[str, NDArray[np.float64]]:

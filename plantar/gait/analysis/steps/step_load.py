@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,9 @@ from plantar.recordings.frame_table import LARGE, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 _BLOCK = 1_000_000  # Values of cells that are looked at together
+CACHED = 200_000
+"""Values of cells that are measured together: what a processor's cache holds of them and of what is made of them."""
+
 NOISE_FRAMES = 5000  # Frames of swing from which a cell's noise is judged: enough for 2 %
 
 
@@ -21,7 +25,7 @@ class StepLoad:
 
     `time`: times (m,) in s; `force`: force (m, k) in N; `pressure` (m, k) in Pa, counts of raw recordings; None without
     areas; `loaded`: which cells (m, k) are; `areas`: areas (k,) in m^2; None without geometry; `starts`: first frame
-    (c,) of each contact.
+    (c,) of each contact; `frame`: usual time in s between frames, None for that of these.
     """
 
     time: NDArray[np.float64]
@@ -30,6 +34,7 @@ class StepLoad:
     loaded: NDArray[np.bool_]
     areas: NDArray[np.float64] | None
     starts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+    frame: float | None = None
 
     @cached_property
     def lengths(self) -> NDArray[np.int64]:
@@ -69,17 +74,21 @@ class StepLoads:
         self.threshold = threshold
         self._read = 0
 
-    def of(self, *contacts: Contact) -> StepLoad:
-        """Forces and pressures of contacts in sequence."""
+    def of(self, *contacts: Contact, frame: float | None = None) -> StepLoad:
+        """Forces and pressures of contacts in sequence; `frame`: usual time in s between frames."""
         for contact in contacts:
             self._count(contact)
         parts = [self._part(c) for c in contacts]
         force = parts[0] if len(parts) == 1 else np.concatenate(parts)
-        time = np.concatenate([self.recording.time[c.begin : c.end] for c in contacts])
+        time = self.times(contacts)
         areas = self.foot.layout.areas if self.foot.layout is not None else None
         pressure = force if self.recording.raw else None if areas is None else force / areas
         starts = np.cumsum([0, *(len(part) for part in parts[:-1])])
-        return StepLoad(time, force, pressure, force > self.threshold, areas, starts)
+        return StepLoad(time, force, pressure, force > self.threshold, areas, starts, frame)
+
+    def times(self, contacts: Sequence[Contact]) -> NDArray[np.float64]:
+        """Times (m,) in s of contacts in sequence."""
+        return np.concatenate([self.recording.time[c.begin : c.end] for c in contacts])
 
     def _part(self, contact: Contact) -> NDArray[np.float64]:
         span = slice(contact.begin, contact.end)
@@ -88,9 +97,9 @@ class StepLoads:
             return _filled(self.recording.time[span], force)
         return force
 
-    def blocks(self, contacts: Sequence[Contact]) -> Iterator[list[Contact]]:
-        """Contacts in groups small enough for memory."""
-        most = max(1, _BLOCK // max(1, self.foot.force.shape[1]))
+    def blocks(self, contacts: Sequence[Contact], values: int = _BLOCK) -> Iterator[list[Contact]]:
+        """Contacts in groups of so many values of cells."""
+        most = max(1, values // max(1, self.foot.force.shape[1]))
         group: list[Contact] = []
         frames = 0
         for contact in contacts:
@@ -111,7 +120,8 @@ class StepLoads:
                 self._count(contact)
             part = np.concatenate([self.foot.force[c.begin : c.end] for c in group])
             starts = np.cumsum([0, *(c.end - c.begin for c in group[:-1])])
-            out.append(np.nan_to_num(np.fmax.reduceat(part, starts, axis=0)))
+            largest = np.maximum if self.foot.missing is None else np.fmax  # which takes longer, for NaN
+            out.append(np.nan_to_num(largest.reduceat(part, starts, axis=0)))
         return np.concatenate(out)
 
     def _count(self, contact: Contact) -> None:
@@ -127,6 +137,13 @@ def _filled(time: NDArray[np.float64], force: NDArray[np.float64]) -> NDArray[np
         known = np.isfinite(force[:, cell])
         out[~known, cell] = np.interp(time[~known], time[known], force[known, cell]) if known.any() else 0.0
     return out
+
+
+def usual_step(time: NDArray[np.float64]) -> float:
+    """Median time in s between times (m,) in s that are later than the last; 0 without."""
+    step = np.diff(time)
+    later = step[step > 0.0].tolist()
+    return median(later) if later else 0.0
 
 
 def cell_threshold(

@@ -117,7 +117,7 @@ def force_measures(
         (28, 600, 551.7)
     """
     duration = lift - strike
-    impulse = float(np.trapezoid(force, time))
+    impulse = float(((time[1:] - time[:-1]) * (force[1:] + force[:-1]) / 2.0).sum())
     impulse += 0.5 * max(0.0, float(time[0]) - strike) * float(force[0])
     impulse += 0.5 * max(0.0, lift - float(time[-1])) * float(force[-1])
     top = int(np.argmax(force))
@@ -128,12 +128,12 @@ def force_measures(
         "impulse_Ns": impulse,
     }
     share = (time - strike) / duration
-    early = np.flatnonzero(share <= 0.5)
-    late = np.flatnonzero(share > 0.5)
+    early = int(np.count_nonzero(share <= 0.5))
+    late = int(np.count_nonzero(share > 0.5))
     rise = top
-    if len(early) >= 3 and len(late) >= 3:
-        first = _first_hump(force, len(early), _HUMP * float(force[early].max()))
-        second = len(force) - 1 - _first_hump(force[::-1], len(late), _HUMP * float(force[late].max()))
+    if early >= 3 and late >= 3:
+        first = _first_hump(force, early, _HUMP * float(force[:early].max()))
+        second = len(force) - 1 - _first_hump(force[::-1], late, _HUMP * float(force[early:].max()))
         low = first + int(np.argmin(force[first : second + 1])) if first < second else first
         if share[first] <= 0.5 < share[second] and first < low < second:
             rise = first
@@ -148,23 +148,35 @@ def _first_hump(force: NDArray[np.float64], half: int, least: float) -> int:
     """Index of the first hump of at least `least` that is not much lower than another before frame `half`."""
     width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
     margin = width // 2
-    padded = np.concatenate([np.full(margin, force[0]), force, np.full(margin, force[-1])])
-    even = (np.convolve(padded, np.full(width, 1.0 / width), mode="valid") if margin else force).tolist()
+    even: list[float] = (_evened(force, margin) if margin else force).tolist()
     humps: list[int] = []
     top = 0
+    highest = even[0]
+    valley = highest * (1.0 - _DEPTH if highest > 0.0 else 1.0 + _DEPTH)  # below zero: an offset
     for i, value in enumerate(even):
-        if value > even[top]:
-            top = i
-        elif value < even[top] * (1.0 - _DEPTH if even[top] > 0.0 else 1.0 + _DEPTH):  # below zero: an offset
-            if even[top] >= least:
-                humps.append(top)
-            top = i
+        if valley <= value <= highest:
+            continue
+        if value < valley and highest >= least:
+            humps.append(top)
+        top = i
+        highest = value
+        valley = value * (1.0 - _DEPTH if value > 0.0 else 1.0 + _DEPTH)
     if not humps:
         return int(np.argmax(force))
     highest = max(even[k] for k in humps if k < half or k == humps[0])
     chosen = next(k for k in humps if even[k] >= _ALIKE * highest)
     begin = max(0, chosen - width)
     return begin + int(np.argmax(force[begin : chosen + width + 1]))
+
+
+def _evened(force: NDArray[np.float64], margin: int) -> NDArray[np.float64]:
+    """Mean force (m,) over as many frames before and after each; the ends go on as they are."""
+    padded = np.empty(len(force) + 2 * margin)
+    padded[:margin] = force[0]
+    padded[margin : margin + len(force)] = force
+    padded[margin + len(force) :] = force[-1]
+    width = 2 * margin + 1
+    return np.convolve(padded, np.full(width, 1.0 / width), mode="valid")
 
 
 def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> dict[str, float]:
