@@ -168,9 +168,10 @@ def _frame_lines(block: Sequence[str]) -> tuple[list[str], int]:
 def _plain_frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64] | None:
     """Numbers (lines, 1 + cells); None unless all are finite and as many."""
     rows = number_rows(block, delimiter, 1 + cells)
-    if rows is None or not np.isfinite(rows).all() or (np.abs(rows[:, 0]) >= _LATEST).any():
+    if rows is None or (np.abs(rows[:, 0]) >= _LATEST).any():
         return None
-    return rows
+    # Between blanks no number is missing.
+    return rows if delimiter is None or np.isfinite(rows).all() else None
 
 
 def _damaged_frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64]:

@@ -62,7 +62,7 @@ def _without_impossible(recording: PressureRecording) -> PressureRecording:
     warnings = list(recording.warnings)
     for side, foot in recording.feet.items():
         parts = {
-            "force": foot.force,
+            "force": None if _no_larger(foot) else foot.force,
             "total": foot.total,
             "cop": foot.cop,
             "wrench": foot.wrench,
@@ -78,6 +78,11 @@ def _without_impossible(recording: PressureRecording) -> PressureRecording:
                 "gives: they count as not measured"
             )
     return recording if feet == recording.feet else replace(recording, feet=feet, warnings=tuple(warnings))
+
+
+def _no_larger(foot: FootRecording) -> bool:
+    """Whether no force of a foot's cells is larger than `MOST`, or infinite."""
+    return bool(foot.extremes.low.min(initial=0.0) >= -MOST and foot.extremes.high.max(initial=0.0) <= MOST)
 
 
 def possible(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -140,7 +145,7 @@ def doubts(recording: PressureRecording) -> list[str]:
             out.append(f"the {side} foot's force falls to {force.min():.4g} N: check its zero and its sign")
         if foot.layout is None or recording.kind == "plate":
             continue
-        highest = float(np.max(foot.extremes[1] / foot.layout.areas, initial=0.0))
+        highest = float(np.max(foot.extremes.high / foot.layout.areas, initial=0.0))
         if highest > 0.0 and not _PRESSURE[0] <= highest <= _PRESSURE[1] and recording.kind != "robot":
             out.append(f"the {side} foot's peak pressure is {highest / 1e3:.4g} kPa, which is unusual: check the unit")
         cell = float(np.median(foot.layout.areas))
@@ -298,7 +303,7 @@ def _marks(foot: FootRecording, per: NDArray[np.float64], are_pressures: bool) -
     parts = [force[rows][-rows.start % every :: every].copy() for rows in blocks_of_frames(force)]  # page by page
     sample = np.concatenate(parts) / per
     sample = np.unique(sample[np.isfinite(sample)])
-    low, high = foot.extremes
+    low, high, _ = foot.extremes
     lowest = float((low / per).min())
     highest = float((high / per).max())
     found = []

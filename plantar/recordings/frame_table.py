@@ -4,7 +4,7 @@ import mmap
 import os
 import tempfile
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,15 +94,32 @@ def scale_frames(values: NDArray[np.float64], factor: float | NDArray[np.float64
         put_rows(values, rows.start, values[rows] * factor)
 
 
-def column_extremes(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Smallest and largest number (k,) of each column of a table (n, k), at most and at least 0."""
+class ColumnExtremes(NamedTuple):
+    """Of a table's columns.
+
+    `low`, `high`: smallest and largest number (k,) of each, at most and at least 0; `lacking`: blocks of rows that hold
+    a NaN.
+    """
+
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    lacking: tuple[slice, ...]
+
+
+def column_extremes(values: NDArray[np.float64]) -> ColumnExtremes:
+    """Extremes of each column of a table (n, k), in one pass."""
     low = np.zeros(values.shape[1])
     high = np.zeros(values.shape[1])
+    lacking = []
     for rows in blocks_of_frames(values):
         part = values[rows]
-        np.fmin(low, _by_halves(np.fmin, part), out=low)
+        least = _by_halves(np.minimum, part)
+        if np.isnan(least).any():
+            lacking.append(rows)
+            least = _by_halves(np.fmin, part)
+        np.fmin(low, least, out=low)
         np.fmax(high, _by_halves(np.fmax, part), out=high)
-    return low, high
+    return ColumnExtremes(low, high, tuple(lacking))
 
 
 def _by_halves(chosen: Callable[..., NDArray[np.float64]], rows: NDArray[np.float64]) -> NDArray[np.float64]:

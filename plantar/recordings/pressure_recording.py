@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.layouts.layout import Side, SoleLayout, mirrored
-from plantar.recordings.frame_table import blocks_of_frames, column_extremes, table_of_blocks
+from plantar.recordings.frame_table import ColumnExtremes, blocks_of_frames, column_extremes, table_of_blocks
 
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
@@ -69,8 +69,7 @@ class FootRecording:
     @cached_property
     def missing(self) -> NDArray[np.bool_] | None:
         """Missing values (n, k); None if all were measured."""
-        # The smallest of numbers with a NaN is NaN: one pass, and no table of answers.
-        lacking = [rows for rows in blocks_of_frames(self.force) if np.isnan(self.force[rows].min(initial=0.0))]
+        lacking = self.extremes.lacking
         if not lacking:
             return None
         missing = np.zeros(self.force.shape, dtype=bool)
@@ -87,8 +86,8 @@ class FootRecording:
         return table_of_blocks(self.force, lambda rows: np.where(missing[rows], 0.0, self.force[rows]))
 
     @cached_property
-    def extremes(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Smallest and largest force (k,) of each cell, at most and at least 0."""
+    def extremes(self) -> ColumnExtremes:
+        """Smallest and largest force (k,) of each cell, at most and at least 0, and which frames lack values."""
         return column_extremes(self.force)
 
     @cached_property

@@ -27,10 +27,11 @@ def test_a_table_keeps_its_numbers_wherever_it_lies(monkeypatch, large):
     assert np.array_equal(rows, truth * np.arange(7.0))
     assert sum(part.stop - part.start for part in blocks_of_frames(rows)) == 101
     rows[5, 3] = np.nan
-    low, high = column_extremes(rows)
+    low, high, lacking = column_extremes(rows)
     with_zero = np.vstack([rows, np.zeros(7)])
     assert low.tolist() == np.nanmin(with_zero, axis=0).tolist()
     assert high.tolist() == np.nanmax(with_zero, axis=0).tolist()
+    assert [part.start <= 5 < part.stop for part in lacking] == [True]
 
 
 @pytest.mark.skipif(

@@ -86,6 +86,8 @@ def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None
         edges = np.linspace(0, n, max(1, int(n / rate / window)) + 1).astype(int)
         found = [_level(force[a:b], rate) for a, b in pairwise(edges)]
         tried.append((sum(part is not None for part in found) / len(found), edges, found))
+        if tried[-1][0] == 1.0:  # shorter ones cannot show more
+            break
     _, edges, found = max(tried, key=lambda one: one[0])
     known = [(*part, a, b) for part, (a, b) in zip(found, pairwise(edges), strict=True) if part is not None]
     if not known:
