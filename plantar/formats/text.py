@@ -50,7 +50,8 @@ class _Lines(io.BufferedReader):
 
     def read1(self, size: int = -1, /) -> bytes:
         data = super().read1(size)
-        end = max(data.rfind(b"\n"), data.rfind(b"\r"))
+        end = data.rfind(b"\n")
+        end = max(end, data.rfind(b"\r", end + 1))
         self._without_end = len(data) - 1 - end + (self._without_end if end < 0 else 0)
         if self._without_end > _LONGEST_LINE:
             raise FormatError(f"a line is longer than {_LONGEST_LINE / 1e6:g} MB: not a text of lines")

@@ -15,13 +15,14 @@ cdef class _Cursor:
     cdef double[::1] powers
     cdef inline bint ends_cell(self, int sign) noexcept
     cdef inline bint is_digit(self) noexcept
+    @cython.locals(at=Py_ssize_t)
     cdef inline void pass_blanks(self) noexcept
     cdef inline bint pass_delimiter(self) noexcept
     cdef inline void pass_cell(self) noexcept
     cdef inline bint pass_line_end(self) noexcept
     cdef inline bint pass_sign(self) noexcept
     cdef inline int pass_exponent(self) noexcept
-    @cython.locals(negative=bint, sign=int, digits=Py_ssize_t, whole=long, point=Py_ssize_t, exponent=int)
+    @cython.locals(begin=Py_ssize_t, at=Py_ssize_t, negative=bint, sign=int, digits=Py_ssize_t, whole=long, point=Py_ssize_t, exponent=int)
     cdef inline bint read_number(self) except -1
 
 @cython.locals(cursor=_Cursor)

@@ -70,10 +70,10 @@ class _Cursor:
 
     # Pass blanks, and tabs that part no numbers.
     def pass_blanks(self):
-        while self.at < self.size and (
-            self.data[self.at] == _BLANK or (self.data[self.at] == _TAB and self.delimiter != _TAB)
-        ):
-            self.at += 1
+        at = self.at
+        while at < self.size and (self.data[at] == _BLANK or (self.data[at] == _TAB and self.delimiter != _TAB)):
+            at += 1
+        self.at = at
 
     # Pass the delimiter and blanks before it; returns whether one is there.
     def pass_delimiter(self):
@@ -134,8 +134,9 @@ class _Cursor:
         digits = 0
         whole = 0
         point = -1
-        while self.at < self.size:
-            sign = self.data[self.at]
+        at = self.at  # a place of its own, which the loop need not store
+        while at < self.size:
+            sign = self.data[at]
             if _ZERO <= sign <= _NINE:
                 digits += 1
                 if digits <= _DIGITS:
@@ -144,10 +145,11 @@ class _Cursor:
                 point = digits
             else:
                 break
-            self.at += 1
+            at += 1
+        self.at = at
         if digits == 0:
             self.value = math.nan
-            return self.at == begin and self.delimiter != 0
+            return at == begin and self.delimiter != 0
         exponent = self.pass_exponent()
         if exponent == 0 and digits <= _DIGITS:
             self.value = whole / self.powers[0 if point < 0 else digits - point]
