@@ -4,6 +4,7 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any, TextIO
 
 _FORMULA = ("=", "+", "-", "@", "\t", "\n")
@@ -77,10 +78,14 @@ def original_cell(text: str) -> str:
 
 
 def _cell(value: Any) -> Any:
-    if value is None or (isinstance(value, float) and not math.isfinite(value)):
-        return ""
-    if not isinstance(value, str):
-        return value
+    if isinstance(value, str):
+        return _text(value)
+    return "" if value is None or (isinstance(value, float) and not math.isfinite(value)) else value
+
+
+# A long table has the same few texts, as of a side, in each row.
+@lru_cache(maxsize=256)
+def _text(value: str) -> str:
     value = value.replace("\r\n", "\n").replace("\r", "\n")
     guarded = value.startswith(_FORMULA) and not _is_number(value)
     return _GUARD + value if guarded or (value.startswith(_GUARD) and original_cell(value) != value) else value
