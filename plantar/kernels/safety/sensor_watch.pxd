@@ -42,4 +42,4 @@ cdef class SensorWatch:
     @cython.locals(window=int, at=Py_ssize_t, carried=int, x=double, y=double)
     cdef void _tilt(self, double* left, double* right) except *
     @cython.locals(found=int, share=double, least=double, more=double)
-    cdef int _noticed(self) noexcept
+    cdef int _noticed(self) except -1

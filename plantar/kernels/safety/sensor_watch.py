@@ -159,12 +159,12 @@ class SensorWatch:
         self.ticks += 1
         readings = sensors.readings
         time = sensors.time
-        found += 32 * self._age(0, readings["left"].time, time, reported)  # derived: `LATE`, or `SELDOM`
-        found += 64 * self._age(1, readings["right"].time, time, reported)  # derived: twice that
+        found += self._age(0, readings["left"].time, time, reported)
+        found += self._age(1, readings["right"].time, time, reported)
         return found + self._noticed()
 
     def _age(self, side, stamp, time, reported):
-        """1 where the readings of a sole come later than they did, 4 where none has come for too long, else 0.
+        """`LATE` where the readings of a sole come later than they did, `SELDOM` where none has come for too long, else 0.
 
         They have to be late by the `reported` time in s and by that of the plan, in s: after a stall the plan's is
         behind, and a clock that stood still makes all that comes after it late.
@@ -177,7 +177,7 @@ class SensorWatch:
         if stamp == stamps[k]:
             if gap > self.older + 2.0 * stamps[k + 2]:
                 later[side] = gap
-                return 4  # derived: `SELDOM` over `LATE`
+                return SELDOM << side
             return 0
         stamps[k] = stamp
         stamps[k + 1] = time
@@ -187,7 +187,7 @@ class SensorWatch:
         stamps[k + 4] = min(stamps[k + 4], time - stamp)
         later[side] = min(reported - stamp - stamps[k + 3], time - stamp - stamps[k + 4])
         late[side] = late[side] + 1.0 if later[side] > self.older else 0.0
-        return 1 if late[side] >= self.readings else 0
+        return LATE << side if late[side] >= self.readings else 0
 
     def _noise(self, q, w):
         """Means of the second differences, of what came one period apart; the codes of those that are too large."""
@@ -226,9 +226,9 @@ class SensorWatch:
         self.sum_gyro += spread
         found = 0
         if self.sum_gyro > self.gyro_noise * self.short:
-            found += 8  # derived: `GYRO_NOISE`
+            found += GYRO_NOISE
         if self.sum_joints > self.noisy * self.short:
-            found += 16  # derived: `ENCODER_NOISE`
+            found += ENCODER_NOISE
         return found
 
     def _accelerate(self, x, turn, a):
@@ -316,17 +316,17 @@ class SensorWatch:
         found = 0
         share = self.share
         if self.acceleration > self.least_acceleration + share * self.largest_acceleration:
-            found += 1  # derived: `ACCELERATION`
+            found += ACCELERATION
         else:
             self.recent_acceleration = max(self.recent_acceleration, self.acceleration)
         if self.turn > self.least_turn + share * self.largest_turn:
-            found += 2  # derived: `TURN`
+            found += TURN
         else:
             self.recent_turn = max(self.recent_turn, self.turn)
         least = self.least_load if self.walked else self.first_load
         more = self.load - 1.0
         if more > least + share * self.largest_more or -more > least + share * self.largest_less:
-            found += 4  # derived: `LOAD`
+            found += LOAD
         else:
             self.recent_more = max(self.recent_more, more)
             self.recent_less = max(self.recent_less, -more)

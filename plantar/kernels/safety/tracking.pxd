@@ -11,7 +11,7 @@ cdef class TrackingCheck:
     cdef Py_ssize_t ticks
     cdef double most, share, least_standing, least_first, least, far
     cdef readonly int count, noticed_count
-    cdef readonly object off, noticed
+    cdef readonly object noticed
     cdef object before, angles, over, beyond, calm, largest, recent
     cpdef void begin_support(self) noexcept
     cpdef int end_support(self) except -1

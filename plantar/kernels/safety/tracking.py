@@ -35,8 +35,7 @@ class TrackingCheck:
     Attributes:
         noticed: 1 for a joint that is noticed, else 0 (k,).
         noticed_count: How many are.
-        off: 1 for a joint that is off, else 0 (k,).
-        count: How many are.
+        count: How many are off.
     """
 
     def __init__(self, joints, confirmed, most, share, leasts, far, settled):
@@ -52,7 +51,6 @@ class TrackingCheck:
         self.noticed_count = 0
         self.ticks = 0
         self.walks = 0
-        self.off = np.zeros(joints)
         self.noticed = np.zeros(joints)
         self.before = np.zeros(2 * joints)
         self.angles = np.zeros(2 * joints)
@@ -93,7 +91,6 @@ class TrackingCheck:
         before = memory.room(self.before)
         angles = memory.room(self.angles)
         noticed = memory.room(self.noticed)
-        off = memory.room(self.off)
         over = memory.room(self.over)
         beyond = memory.room(self.beyond)
         calm = memory.room(self.calm)
@@ -148,8 +145,7 @@ class TrackingCheck:
                 over[i] += 1.0
                 calm[i] = 0.0
             beyond[i] = beyond[i] + 1.0 if error > limit else 0.0
-            off[i] = 1.0 if beyond[i] >= self.confirmed else 0.0
-            if off[i] != 0.0:
+            if beyond[i] >= self.confirmed:
                 self.count += 1
             if over[i] >= self.confirmed:
                 noticed[i] = 1.0
