@@ -19,10 +19,10 @@ from plantar.gait.safety.bring_up.bring_up import BringUp
 from plantar.gait.safety.fall_check import FROZEN, FallCheck
 from plantar.gait.safety.fault_log import FaultLog
 from plantar.gait.safety.safe_stop import SITS, SafeStop
-from plantar.gait.safety.supervision import Supervision, presses_flat
+from plantar.gait.safety.supervision import Supervision
 from plantar.gait.safety.target_limits import TargetLimits
 from plantar.gait.safety.taxel_check import TaxelCheck
-from plantar.kernels.safety.plausible import BodyCheck, SoleCheck, height_of_upright
+from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
 from plantar.kernels.safety.tick_clock import TickClock
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
@@ -36,8 +36,7 @@ _LATE = 0.15  # chosen: s of times that cannot be taken, until the state is "lat
 # chosen: weight on both soles below which one must be silent, and for how long in s
 _UNLOADED = 0.3
 _WEIGHTLESS = 0.04  # chosen: 40 ms: impacts unload a foot for less
-_ROLLED = 0.06  # measured: rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
-_FALLEN = 0.5  # derived: cosine of the trunk's tilt, and share of its height, below which a robot has fallen
+_FALLEN = 0.5  # derived: share of its height below which the CoM of a robot has fallen
 _LANDING = 0.15  # chosen: s of double support within which a foot comes down that lands late
 _EMPTY = 0.05  # chosen: weight on both soles of a robot that stands on both feet, below which both are silent
 # chosen: s after which a blind robot sits, and goes limp where neither IMU nor soles show that it stands
@@ -97,9 +96,8 @@ class SafetyShell:
         self._begun = False
         self._period = period
         self._weight = mass * GRAVITY
-        self._height = com_height
+        self._fallen = _FALLEN * com_height
         self._counts = {side: len(layouts[side]) for side in layouts}
-        self._positions = {side: layouts[side].positions for side in layouts}
         self._clock = TickClock(period, begin)
         self._limits = TargetLimits(period, leg, math.sqrt(leg / GRAVITY), self._weight)
         self._joints = joints
@@ -115,8 +113,6 @@ class SafetyShell:
         self._unloaded = 0
         self._sound: Sensors | None = None
         self._lost: Side | None = None
-        self._stance: Side | None = None
-        self._landed = (0.0, 0.0)
         self._stop = stop
         self._fall = FallCheck(period, self._weight, com_height, posture)
         self._empty = 0
@@ -230,7 +226,7 @@ class SafetyShell:
             return self._checked(self.bring_up, sensors)
         if self.state in _FINAL:
             return self._held()
-        if down or self._is_fallen():
+        if down or self._limits.height < self._fallen:
             return self._in_state("fallen", "the trunk tilts, the soles are off the ground, or the legs have folded")
         if self.state in SITS:
             return self._sitting()
@@ -309,10 +305,8 @@ class SafetyShell:
         command = self._tick(sensors)
         self._sound = sensors
         self._silent = 0
-        if self._lost is None and not (self._body is not None and self._body.missing):
-            self._supervision.compare(sensors, command, self._soles, self._reported)
-        else:
-            self._supervision.skip()
+        whole = self._lost is None and not (self._body is not None and self._body.missing)
+        self._supervision.compare(sensors, command, self._soles, self._reported, whole)
         if self._soles.dead != self._dead:
             self._note_dead()
         if not self._begun:
@@ -321,29 +315,7 @@ class SafetyShell:
                 return command
         if self._supervision.grave:
             return self._in_state("blind", self._supervision.grave)
-        if self._is_contradicted(command, sensors.readings):
-            return self._in_state("blind", "the standing sole turns, by encoders and IMU, but presses as a flat one")
         return self._limits.limited(self._last, command)
-
-    def _is_contradicted(self, command: Command, readings: Readings) -> bool:
-        """Whether the standing sole turns by its leg's encoders and IMU while it presses as a flat one: an encoder is
-        stuck or drifts. A sole that rolls over an edge presses with a row of taxels.
-        """
-        stance = command.phase.stance
-        if stance is None:
-            self._stance = None
-            return False
-        rotation = command.state.rotations_sole[stance]
-        x = rotation.item(2)
-        y = rotation.item(5)
-        if stance != self._stance:
-            self._stance = stance
-            self._landed = (x, y)
-        x = x - self._landed[0]
-        y = y - self._landed[1]
-        if math.hypot(x, y) <= _ROLLED:
-            return False
-        return presses_flat(self._positions[stance], readings[stance].force, rotation, (x, y))
 
     def _bridge(self, time: float) -> Command:
         """A tick without usable reading: on with the last briefly, then blind."""
@@ -471,14 +443,6 @@ class SafetyShell:
             lost: Reading(reading.time, np.full(count, rest / count)),
         }
         return found
-
-    def _is_fallen(self) -> bool:
-        if not self._begun:
-            return False
-        state = self._last.state
-        soles = state.positions_sole
-        height = height_of_upright(state.rotation_base_to_world, state.com, soles["left"], soles["right"], _FALLEN)
-        return bool(height < _FALLEN * self._height)
 
 
 def _sound(readings: Readings, side: Side, count: int) -> Reading | None:

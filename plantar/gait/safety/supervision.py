@@ -60,7 +60,7 @@ _OLDER_FOR = 4  # chosen: readings in turn
 _TOO_LATE = 0.06  # chosen: s by which soles are too late to walk by, a sixth of the shortest single support
 _LATE_FOR = 0.1  # chosen: s for which they are; longer than a cable's stutter
 _MOVED_FOR = 0.1  # chosen: s for which more joints may be off than encoders fail at a time: a blow is shorter
-_FLAT = 0.5  # derived: spread of the load of a flat sole, of that of an even one; a row of taxels has less than 0.3
+_FLAT = 0.5  # derived: spread of a flat sole's load, of that of an even one; a row of taxels has less than 0.3
 
 
 class Supervision:
@@ -81,7 +81,7 @@ class Supervision:
     def __init__(
         self, layouts: Mapping[Side, SoleLayout], mass: float, period: float, note: Callable[[str, str], None]
     ) -> None:
-        self._positions = {side: layouts[side].positions for side in SIDES}
+        self._positions = tuple(layouts[side].positions for side in SIDES)
         self._mass = mass
         self._period = period
         self._note = note
@@ -173,10 +173,11 @@ class Supervision:
         turn = math.acos(min(1.0, max(-1.0, cosine)))
         return turn < _STILL * abs(float(angles[joint] - commanded[joint]))
 
-    def compare(self, sensors: Sensors, command: Command, soles: SoleCheck, reported: float) -> None:
+    def compare(self, sensors: Sensors, command: Command, soles: SoleCheck, reported: float, whole: bool) -> None:
         """Compare a tick's `sensors` with the state of the `command` that answers them.
 
-        `soles`: holds the force on each; `reported`: the tick's time in s as it came.
+        `soles`: holds the force on each; `reported`: the tick's time in s as it came; `whole`: no sole is replaced and
+        no number is missing, without which the standing sole's turn alone is looked at.
         """
         if self._waits > 0:
             self._waits -= 1
@@ -190,19 +191,28 @@ class Supervision:
             leasts = (_ACCELERATION, _TURN, *_LOAD)
             ages = (_OLDER, _OLDER_FOR)
             sizes = (window, mean, short)
-            watch = SensorWatch(joints, self._mass, GRAVITY, self._period, *sizes, _SHARE, leasts, *ages, _NOISES)
+            mass = self._mass
+            positions = self._positions
+            limits = (_SHARE, leasts, *ages, _FLAT, _NOISES)
+            watch = SensorWatch(joints, mass, GRAVITY, positions, self._period, *sizes, *limits)
             self._watch = watch
         stance = command.phase.stance
         if stance is not self._stance:
             self._change_stance(watch, stance)
-        found = watch.update(sensors, command, soles.left, soles.right, reported)
+        if whole:
+            found = watch.update(sensors, command, soles.left, soles.right, reported)
+        else:
+            watch.skip()
+            found = watch.turned(sensors, command, soles.left, soles.right)
         if found:
-            self._name(found, watch, sensors, command)
+            self._name(found, watch)
 
     def _change_stance(self, watch: SensorWatch, stance: Side | None) -> None:
         """Learn what a single support that has ended showed."""
         if self._stance is not None:
             watch.end_support()
+        if stance is not None:
+            watch.begin_support(stance == "right")
         if self.tracking is not None:
             if self._stance is not None:
                 self.tracking.end_support()
@@ -210,7 +220,7 @@ class Supervision:
                 self.tracking.begin_support()
         self._stance = stance
 
-    def _name(self, found: int, watch: SensorWatch, sensors: Sensors, command: Command) -> None:
+    def _name(self, found: int, watch: SensorWatch) -> None:
         """Put codes in words."""
         if found >= LATE:
             self._name_ages(found, watch)
@@ -225,12 +235,7 @@ class Supervision:
         if found & ENCODER_NOISE:
             self._note("encoder noise", "encoders jump to and fro, or go in coarse steps")
         if found & TURN:
-            side: Side = "right" if watch.turns_right else "left"
-            rotation = command.state.rotations_sole[side]
-            force = sensors.readings[side].force
-            if presses_flat(self._positions[side], force, rotation, (watch.turn_x, watch.turn_y)):
-                text = f"the {side} sole carries and turns by {watch.turn:.2f} rad in {_WINDOW} s, by encoders and gyro"
-                self._note("turn", text)
+            self.grave = "the standing sole turns, by encoders and IMU, but presses as a flat one"
 
     def _name_ages(self, found: int, watch: SensorWatch) -> None:
         """Put what is late or comes seldom in words."""
@@ -242,21 +247,3 @@ class Supervision:
                 self._note(f"{side} age", f"readings of the {side} sole come {later:.2f} s later than they did")
                 if later > _TOO_LATE and watch.late[i] * self._period > _LATE_FOR:
                     self.grave = "the soles' readings come too late to walk by"
-
-
-def presses_flat(
-    positions: NDArray[np.float64],
-    force: NDArray[np.float64],
-    rotation: NDArray[np.float64],
-    way: tuple[float, float],
-) -> bool:
-    """Whether a sole that turns presses as a flat one: one that rolls over an edge presses with a row of taxels.
-
-    `positions` (n, 3) in m and `force` (n,) in N of its taxels; `rotation` (3, 3) to the world; `way`: that its normal
-    went, forward and left.
-    """
-    along = positions @ (rotation.T @ np.array([*way, 0.0]))
-    load = np.maximum(np.nan_to_num(force), 0.0)
-    # nature: floating point: 0 / 0 is 0
-    spread = float(load @ (along - load @ along / max(load.sum(), 1e-9)) ** 2) / max(float(load.sum()), 1e-9)
-    return spread > (_FLAT * float(along.std())) ** 2

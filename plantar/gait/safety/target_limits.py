@@ -17,6 +17,7 @@ _FOOT = 0.75  # measured: 1.8 m/s on h1
 _COM = 0.32  # measured: 0.8 m/s on h1
 _TURN = 2.4  # chosen: rad/beat of a sole or the torso; 9.7 rad/s
 _FORCE = 4.5  # chosen: weight/beat of the force on a foot; a weight in 55 ms
+_TILTED = 0.5  # derived: cosine of the trunk's tilt below which a robot has fallen: 60 degrees
 
 
 class TargetLimits:
@@ -32,8 +33,13 @@ class TargetLimits:
         self._com = _COM * leg * share
         self._turn = _TURN * share
         self._force = _FORCE * weight * share
-        self._moves = TargetMoves(self._com, self._foot, self._turn, self._force)
+        self._moves = TargetMoves(self._com, self._foot, self._turn, self._force, _TILTED)
         self._taken: Command | None = None  # whose targets those are that the next ones are compared with
+
+    @property
+    def height(self) -> float:
+        """Of the last command's estimated CoM in m over the lower sole; -inf where its trunk has fallen."""
+        return float(self._moves.height)
 
     def limited(self, before: Command, now: Command) -> Command:
         """A command with targets within the limits from the last tick's.
@@ -41,9 +47,9 @@ class TargetLimits:
         Returns `now` itself within limits; else with targets on the way.
         """
         if before is not self._taken:
-            self._is_near(before)
+            self._moves.within(before)
         self._taken = None
-        near = self._is_near(now)
+        near = self._moves.within(now)
         self._taken = now
         if near:
             return now
@@ -52,17 +58,6 @@ class TargetLimits:
             com=_moved(before.com, now.com, self._com),
             rotation_torso=_turned(before.rotation_torso, now.rotation_torso, self._turn),
             feet=feet,
-        )
-
-    def _is_near(self, command: Command) -> bool:
-        left = command.feet["left"]
-        right = command.feet["right"]
-        return bool(
-            self._moves.within(
-                *(command.com, command.rotation_torso),
-                *(left.position, left.rotation, left.force),
-                *(right.position, right.rotation, right.force),
-            )
         )
 
     def _foot_of(self, before: FootTarget, now: FootTarget) -> FootTarget:

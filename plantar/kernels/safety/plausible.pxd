@@ -8,7 +8,6 @@ cdef double _INFINITE, _NONE, _FAST, _TURNED, _SPIN, _SHOCK
 cpdef bint are_finite(joints, gyro, accelerometer) except -1
 cdef bint _finite(array) except -1
 cpdef double away_from_feet(com, left, right) except? -1.0
-cpdef double height_of_upright(rotation, com, left, right, double least) except? -1.0
 
 @cython.final
 cdef class BodyCheck:
@@ -52,12 +51,13 @@ cdef class SoleCheck:
 
 @cython.final
 cdef class TargetMoves:
-    cdef double com, foot, turn, force
+    cdef double com, foot, turn, force, least
+    cdef readonly double height
     cdef object kept
     @cython.locals(near=bint)
-    cpdef bint within(
-        self, com, torso, left, left_turn, left_force, right, right_turn, right_force
-    ) except *
+    cpdef bint within(self, command) except *
+    @cython.locals(lower=double)
+    cdef int _rise(self, state) except -1
     @cython.locals(near=bint, i=int)
     cdef bint _near(self, double* kept, int begin, double* now, int count, double most) noexcept
     @cython.locals(i=int, way=double, change=double)

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..base import memory
 
-__all__ = ["BodyCheck", "SoleCheck", "TargetMoves", "are_finite", "away_from_feet", "height_of_upright"]
+__all__ = ["BodyCheck", "SoleCheck", "TargetMoves", "are_finite", "away_from_feet"]
 
 _INFINITE = float("inf")
 _NONE = float("nan")
@@ -254,32 +254,49 @@ class TargetMoves:
     """Compares a command's targets with the last one's.
 
     `com`: largest way of the CoM in a tick in m; `foot`: of a sole; `turn`: largest change of an entry of a rotation;
-    `force`: of a foot's force in N.
+    `force`: of a foot's force in N; `least`: cosine of the trunk's tilt below which a robot has fallen.
+
+    `height`: of the estimated CoM in m above the lower sole, by the last command; -inf where the trunk has fallen, inf
+    before the first command.
     """
 
-    def __init__(self, com, foot, turn, force):
+    def __init__(self, com, foot, turn, force, least=0.0):
         self.com = com
         self.foot = foot
         self.turn = turn
         self.force = force
+        self.least = least
+        self.height = _INFINITE
         self.kept = np.zeros(42)
 
-    def within(self, com, torso, left, left_turn, left_force, right, right_turn, right_force):
-        """Whether all targets are within the limits from the last call's, and keep them; one that is NaN is not.
-
-        CoM (3,) in m and rotation (3, 3) of the torso; of each sole position (3,) in m, rotation (3, 3), force (3,) in
-        N.
+    def within(self, command):
+        """Whether a command's targets are within the limits from the last call's, and keep them; one that is NaN is
+        not: CoM and rotation of the torso; of each sole position, rotation and force.
         """
         kept = memory.room(self.kept)
-        near = self._goes(kept, 0, memory.values(com), self.com)
-        near &= self._near(kept, 3, memory.values(torso), 9, self.turn)
-        near &= self._goes(kept, 12, memory.values(left), self.foot)
-        near &= self._near(kept, 15, memory.values(left_turn), 9, self.turn)
-        near &= self._near(kept, 24, memory.values(left_force), 3, self.force)
-        near &= self._goes(kept, 27, memory.values(right), self.foot)
-        near &= self._near(kept, 30, memory.values(right_turn), 9, self.turn)
-        near &= self._near(kept, 39, memory.values(right_force), 3, self.force)
+        feet = command.feet
+        near = self._goes(kept, 0, memory.values(command.com), self.com)
+        near &= self._near(kept, 3, memory.values(command.rotation_torso), 9, self.turn)
+        foot = feet["left"]
+        near &= self._goes(kept, 12, memory.values(foot.position), self.foot)
+        near &= self._near(kept, 15, memory.values(foot.rotation), 9, self.turn)
+        near &= self._near(kept, 24, memory.values(foot.force), 3, self.force)
+        foot = feet["right"]
+        near &= self._goes(kept, 27, memory.values(foot.position), self.foot)
+        near &= self._near(kept, 30, memory.values(foot.rotation), 9, self.turn)
+        near &= self._near(kept, 39, memory.values(foot.force), 3, self.force)
+        self._rise(command.state)
         return near
+
+    def _rise(self, state):
+        """The height of an estimated state."""
+        soles = state.positions_sole
+        if memory.values(state.rotation_base_to_world)[8] < self.least:
+            self.height = -_INFINITE
+        else:
+            lower = min(memory.values(soles["left"])[2], memory.values(soles["right"])[2])
+            self.height = memory.values(state.com)[2] - lower
+        return 0
 
     def _near(self, kept, begin, now, count, most):
         """Whether numbers are within a limit from the kept ones, which they become."""
@@ -306,12 +323,3 @@ def away_from_feet(com, left, right):
     p = memory.values(left)
     q = memory.values(right)
     return math.hypot(c[0] - 0.5 * (p[0] + q[0]), c[1] - 0.5 * (p[1] + q[1]))
-
-
-def height_of_upright(rotation, com, left, right, least):
-    """Height in m of a CoM (3,) in m above the lower of two soles (3,) in m; -inf for a trunk with rotation (3, 3) to
-    the world whose tilt has a cosine below `least`.
-    """
-    if memory.values(rotation)[8] < least:
-        return -_INFINITE
-    return memory.values(com)[2] - min(memory.values(left)[2], memory.values(right)[2])

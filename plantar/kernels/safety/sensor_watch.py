@@ -21,7 +21,7 @@ _NONE = float("nan")
 _INFINITE = float("inf")
 
 _LEAST_PULL = 3.0  # chosen: m/s^2: soles of a robot that falls carry nothing to compare with
-_CARRIES = 0.3  # chosen: weight on a sole that does not turn; less may still come down
+_CARRIES = 0.3  # chosen: weight on a sole that does not turn; less may still come down, or lift off
 _MOST_JITTER = 0.3  # chosen: rad/s: a shock counts as that much, so that it ends with the window
 
 
@@ -30,16 +30,18 @@ class SensorWatch:
 
     Three comparisons learn what is usual, with every single support that ends, and notice what is more than a share of
     that and a constant: the accelerometer against the base's motion by encoders and gyro, in the mean of a window; the
-    turn of a sole that carries, within a window; the soles' load over the mass times the vertical specific force, more
-    and less, in the mean of a shorter window. White noise of gyro and encoders shows in their second differences. The
+    turn of the standing sole in a single support, by encoders and gyro, in those ticks in which it carries and presses
+    as a flat one; the soles' load over the mass times the vertical specific force, more and less, in the mean of a
+    shorter window. White noise of gyro and encoders shows in their second differences. The
     readings of a sole are late, or come seldom, beside the freshest and the most frequent ones.
 
     Args:
         joints: Number of angles.
         mass: Robot's in kg.
         gravity: In m/s^2.
+        positions: Of the left and the right sole's taxels, (n, 3) and (m, 3) in m, sole frame.
         period: Of control in s.
-        window: Of acceleration and turn in ticks.
+        window: Of acceleration in ticks.
         mean: Ticks by which positions are differenced into speeds.
         short: Window of load and noise in ticks.
         share: Of what is usual.
@@ -47,20 +49,37 @@ class SensorWatch:
             has ended.
         older: Time in s by which the readings of a sole are late, or come seldom.
         readings: In turn that have to be late.
+        flat: Spread of a flat sole's load in any direction, of that of an even load; one that rolls over an edge
+            presses with a row of taxels.
         noises: Gyro's second difference in rad/s, and encoders' in rad; and the share of the joints that show it.
 
     Attributes:
         acceleration: Horizontal difference of the accelerometer in m/s^2.
-        turn: Of a sole that carries, in the window, in rad.
-        turn_x: Forward part of where that sole's normal went; `turn_y`: left part; world frame.
-        turns_right: Whether it is the right sole.
+        turn: Of the standing sole in rad, without what it turned by while it carried too little or pressed with an
+            edge.
         later: Time in s by which readings of the left and the right sole come later than they did (2,), or for which
             none has come.
         late: Readings in turn that were late (2,).
         load: Soles' load over what the accelerometer shows.
     """
 
-    def __init__(self, joints, mass, gravity, period, window, mean, short, share, leasts, older, readings, noises):
+    def __init__(
+        self,
+        joints,
+        mass,
+        gravity,
+        positions,
+        period,
+        window,
+        mean,
+        short,
+        share,
+        leasts,
+        older,
+        readings,
+        flat,
+        noises,
+    ):
         self.joints = joints
         self.mass = mass
         self.gravity = gravity
@@ -78,7 +97,19 @@ class SensorWatch:
         self.restart_clock()
         self.gyro_noise, self.encoder_noise, self.noisy = noises
         self.places = np.zeros(2 * (window + mean))
-        self.turns = np.zeros(4 * window)
+        left, right = (np.array(sole, dtype=np.float64)[:, :2] for sole in positions)
+        self.left_positions = left.reshape(-1)
+        self.right_positions = right.reshape(-1)
+        self.left_even = _spread(left, flat)
+        self.right_even = _spread(right, flat)
+        self.left_count = len(left)
+        self.right_count = len(right)
+        self.stance = 0
+        self.begun = False
+        self.normal_x = 0.0
+        self.normal_y = 0.0
+        self.turn_x = 0.0
+        self.turn_y = 0.0
         self.loads = np.zeros(4 * short)
         self.kept = np.zeros(2 * (joints + 3))
         self.speed_x = 0.0
@@ -86,8 +117,6 @@ class SensorWatch:
         self.way_x = 0.0
         self.way_y = 0.0
         self.ticks = 0
-        self.left = 0
-        self.right = 0
         self.sum_load = 0.0
         self.sum_pull = 0.0
         self.sum_gyro = 0.0
@@ -103,9 +132,6 @@ class SensorWatch:
         self.recent_less = 0.0
         self.acceleration = 0.0
         self.turn = 0.0
-        self.turn_x = 0.0
-        self.turn_y = 0.0
-        self.turns_right = False
         self.load = 1.0
 
     def restart_clock(self):
@@ -122,12 +148,19 @@ class SensorWatch:
     def skip(self):
         """Ticks were missed: what was kept is not one period apart."""
         self.ticks = 0
-        self.left = 0
-        self.right = 0
+
+    def begin_support(self, right):
+        """A single support begins, on the `right` sole or the left one."""
+        self.stance = 2 if right else 1
+        self.begun = False
+        self.turn = 0.0
+        self.turn_x = 0.0
+        self.turn_y = 0.0
 
     def end_support(self):
         """A single support has ended: what it showed is usual from now on."""
         self.walked = True
+        self.stance = 0
         self.largest_acceleration = max(self.largest_acceleration, self.recent_acceleration)
         self.largest_turn = max(self.largest_turn, self.recent_turn)
         self.largest_more = max(self.largest_more, self.recent_more)
@@ -147,24 +180,50 @@ class SensorWatch:
         found = self._noise(memory.values(sensors.joint_positions), memory.values(sensors.gyro))
         a = memory.values(sensors.accelerometer)
         state = command.state
-        rotations = state.rotations_sole
         turn = memory.values(state.rotation_base_to_world)
         self._accelerate(memory.values(state.position_base), turn, a)
         pull = turn[6] * a[0] + turn[7] * a[1] + turn[8] * a[2]
         self._weigh(left_load + right_load, pull)
-        least = _CARRIES * self.mass * self.gravity
-        self.left = self.left + 1 if left_load > least else 0
-        self.right = self.right + 1 if right_load > least else 0
-        self._tilt(memory.values(rotations["left"]), memory.values(rotations["right"]))
         self.ticks += 1
         readings = sensors.readings
         time = sensors.time
         found += self._age(0, readings["left"].time, time, reported)
         found += self._age(1, readings["right"].time, time, reported)
-        return found + self._noticed()
+        return found + self._noticed() + self.turned(sensors, command, left_load, right_load)
+
+    def turned(self, sensors, command, left_load, right_load):
+        """`TURN` where the standing sole has turned by more than usual, else 0: of a tick's `sensors` and the `command`
+        that answers them, and the force in N on the soles; `update` does this, too.
+        """
+        if self.stance == 0:
+            return 0
+        right = self.stance == 2
+        side = "right" if right else "left"
+        rotation = memory.values(command.state.rotations_sole[side])
+        x = rotation[2] - self.normal_x
+        y = rotation[5] - self.normal_y
+        self.normal_x = rotation[2]
+        self.normal_y = rotation[5]
+        load = right_load if right else left_load
+        if not self.begun or load < _CARRIES * self.mass * self.gravity:
+            self.begun = True
+            return 0
+        force = sensors.readings[side].force
+        count = self.right_count if right else self.left_count
+        positions = memory.values(self.right_positions if right else self.left_positions)
+        even = memory.values(self.right_even if right else self.left_even)
+        if memory.size(force) != count or not _is_flat(positions, even, memory.values(force), count):
+            return 0
+        self.turn_x += x
+        self.turn_y += y
+        self.turn = math.hypot(self.turn_x, self.turn_y)
+        if self.turn > self.least_turn + self.share * self.largest_turn:
+            return TURN
+        self.recent_turn = max(self.recent_turn, self.turn)
+        return 0
 
     def _age(self, side, stamp, time, reported):
-        """`LATE` where the readings of a sole come later than they did, `SELDOM` where none has come for too long, else 0.
+        """`LATE` where a sole's readings come later than they did, `SELDOM` where none has come for too long, else 0.
 
         They have to be late by the `reported` time in s and by that of the plan, in s: after a stall the plan's is
         behind, and a clock that stood still makes all that comes after it late.
@@ -285,32 +344,6 @@ class SensorWatch:
         if ticks >= short:
             self.load = self.sum_load / (self.mass * max(self.sum_pull, _LEAST_PULL * short))
 
-    def _tilt(self, left, right):
-        """The turn of a sole that carried in the whole window, and 0.1 s before it."""
-        window = self.window
-        turns = memory.room(self.turns)
-        at = 4 * (self.ticks % window)
-        carried = window + self.short // 2
-        self.turn_x = 0.0
-        self.turn_y = 0.0
-        self.turns_right = False
-        if self.left > carried:
-            self.turn_x = left[2] - turns[at]
-            self.turn_y = left[5] - turns[at + 1]
-        self.turn = math.hypot(self.turn_x, self.turn_y)
-        if self.right > carried:
-            x = right[2] - turns[at + 2]
-            y = right[5] - turns[at + 3]
-            if math.hypot(x, y) > self.turn:
-                self.turn = math.hypot(x, y)
-                self.turn_x = x
-                self.turn_y = y
-                self.turns_right = True
-        turns[at] = left[2]
-        turns[at + 1] = left[5]
-        turns[at + 2] = right[2]
-        turns[at + 3] = right[5]
-
     def _noticed(self):
         """The codes of what is more than usual, and learn what is not."""
         found = 0
@@ -319,10 +352,6 @@ class SensorWatch:
             found += ACCELERATION
         else:
             self.recent_acceleration = max(self.recent_acceleration, self.acceleration)
-        if self.turn > self.least_turn + share * self.largest_turn:
-            found += TURN
-        else:
-            self.recent_turn = max(self.recent_turn, self.turn)
         least = self.least_load if self.walked else self.first_load
         more = self.load - 1.0
         if more > least + share * self.largest_more or -more > least + share * self.largest_less:
@@ -331,3 +360,39 @@ class SensorWatch:
             self.recent_more = max(self.recent_more, more)
             self.recent_less = max(self.recent_less, -more)
         return found
+
+
+def _is_flat(positions, even, force, count):
+    """Whether a sole's load spreads in every direction: by its covariance, less a share of that of an `even` one."""
+    load = 0.0
+    x = 0.0
+    y = 0.0
+    xx = 0.0
+    xy = 0.0
+    yy = 0.0
+    for i in range(count):
+        f = force[i]
+        if f > 0.0:  # and is a number
+            fx = f * positions[2 * i]
+            fy = f * positions[2 * i + 1]
+            load += f
+            x += fx
+            y += fy
+            xx += fx * positions[2 * i]
+            xy += fx * positions[2 * i + 1]
+            yy += fy * positions[2 * i + 1]
+    if load <= 0.0:
+        return False
+    x /= load
+    y /= load
+    xx = xx / load - x * x - even[0]
+    xy = xy / load - x * y - even[1]
+    yy = yy / load - y * y - even[2]
+    return xx > 0.0 and xx * yy > xy * xy
+
+
+def _spread(positions, share):
+    """Covariance (xx, xy, yy) in m^2 of an even load on taxels (n, 2) in m, times the square of a `share`."""
+    centered = positions - positions.mean(axis=0)
+    squares = share * share / len(positions) * (centered.T @ centered)
+    return np.array([squares[0, 0], squares[0, 1], squares[1, 1]])

@@ -1,5 +1,7 @@
 """What the shell compares each tick: targets with the last ones, and forces on the soles."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -17,6 +19,21 @@ def targets(rng):
     return [rng.normal(size=shape) for shape in SHAPES]
 
 
+def command(targets, com=(0.0, 0.0, 0.8), up=1.0):
+    """A command with targets, of a state with a CoM over soles at heights of 0 and 0.1 m, and a trunk's cosine."""
+    com_target, torso, *rest = targets
+    feet = {
+        side: SimpleNamespace(position=foot[0], rotation=foot[1], force=foot[2])
+        for side, foot in (("left", rest[:3]), ("right", rest[3:]))
+    }
+    state = SimpleNamespace(
+        com=np.array(com),
+        rotation_base_to_world=np.diag([1.0, 1.0, up]),
+        positions_sole={"left": np.array([0.0, 0.1, 0.1]), "right": np.zeros(3)},
+    )
+    return SimpleNamespace(com=com_target, rotation_torso=torso, feet=feet, state=state)
+
+
 @pytest.mark.parametrize("form", FORMS)
 def test_targets_within_their_limits(form):
     rng = np.random.default_rng(1)
@@ -26,12 +43,12 @@ def test_targets_within_their_limits(form):
         for k in WAYS:  # most of them within
             now[k] = before[k] + MOST[k] * rng.uniform(-0.6, 0.6, 3)
         moves = form.TargetMoves(*LIMITS)
-        moves.within(*before)
+        moves.within(command(before))
         moved = [b - a for a, b in zip(before, now, strict=True)]
         sizes = [np.linalg.norm(way) if k in WAYS else np.abs(way).max() for k, way in enumerate(moved)]
         expected = all(size <= most for size, most in zip(sizes, MOST, strict=True))
-        assert moves.within(*now) == expected
-        assert moves.within(*now)  # they are the last ones now
+        assert moves.within(command(now)) == expected
+        assert moves.within(command(now))  # they are the last ones now
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -40,10 +57,10 @@ def test_each_target_counts_and_nan_never_passes(form, which):
     before = targets(np.random.default_rng(which))
     for change in (1.01 * MOST[which], np.nan):
         moves = form.TargetMoves(*LIMITS)
-        moves.within(*before)
+        moves.within(command(before))
         now = [v.copy() for v in before]
         now[which].flat[-1] += change
-        assert not moves.within(*now)
+        assert not moves.within(command(now))
 
 
 @pytest.mark.parametrize("form", FORMS)

@@ -16,10 +16,15 @@ PERIOD = 0.005
 MASS = 50.0
 WEIGHT = MASS * GRAVITY
 NOISES = (0.045, 1e-3, 0.25)
+TAXELS = np.array([(x, y, 0.0) for x in np.linspace(-0.1, 0.1, 7) for y in np.linspace(-0.05, 0.05, 5)])
+EVEN = np.full(len(TAXELS), 1.0)
+EDGE = 1.0 * (TAXELS[:, 1] < -0.04)  # its right edge
 
 
 def watch_of(form, joints=3):
-    return form.SensorWatch(joints, MASS, GRAVITY, PERIOD, 60, 12, 40, 2.0, (0.5, 0.07, 0.12, 0.5), 0.03, 4, NOISES)
+    leasts = (0.5, 0.07, 0.12, 0.5)
+    soles = (TAXELS, TAXELS)
+    return form.SensorWatch(joints, MASS, GRAVITY, soles, PERIOD, 60, 12, 40, 2.0, leasts, 0.03, 4, 0.5, NOISES)
 
 
 class Motion:
@@ -30,7 +35,7 @@ class Motion:
         self.ticks = 0
         self.rng = np.random.default_rng(3)
 
-    def tick(self, *, off=0.0, load=1.0, turn=0.0, gyro=0.0, joints=0.0, stamp=None, clock=0.0):
+    def tick(self, *, off=0.0, load=1.0, turn=0.0, gyro=0.0, joints=0.0, stamp=None, clock=0.0, force=EVEN):
         t = PERIOD * self.ticks
         self.ticks += 1
         sway = 2.0 * np.pi * t
@@ -43,7 +48,10 @@ class Motion:
             joint_positions=0.1 * np.sin(sway + np.arange(3.0)) + joints * self.rng.normal(size=3),
             gyro=0.1 * np.cos(sway + np.arange(3.0)) + gyro * self.rng.normal(size=3),
             accelerometer=specific,
-            readings={"left": SimpleNamespace(time=t), "right": SimpleNamespace(time=t if stamp is None else stamp)},
+            readings={
+                "left": SimpleNamespace(time=t, force=EVEN),
+                "right": SimpleNamespace(time=t if stamp is None else stamp, force=force),
+            },
         )
         rotations = {"left": np.eye(3), "right": rotation_from_vector(np.array([turn, 0.0, 0.0]))}
         state = SimpleNamespace(position_base=position, rotation_base_to_world=rotation, rotations_sole=rotations)
@@ -98,18 +106,46 @@ def test_soles_that_carry_another_weight_than_before(form, share, found):
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_a_sole_that_carries_and_turns(form):
+def test_a_standing_sole_that_turns(form):
     motion = Motion(form)
-    motion.after(100)
-    assert motion.after(40, turn=lambda k: 0.0015 * k) == 0
-    assert motion.after(40, turn=lambda k: 0.06 + 0.0015 * k) == TURN
-    assert motion.watch.turns_right
-    assert motion.watch.turn == pytest.approx(0.09, abs=0.01)
-    assert motion.watch.turn_y < 0.0  # the normal of a sole that rolls to the right goes to the right
-    # One that comes down may turn.
+    motion.after(100, turn=lambda k: 0.002 * k)  # both stand: it may roll in any way
+    motion.watch.begin_support(True)
+    assert motion.after(60, turn=lambda k: 0.2 + 0.001 * k) == 0
+    assert motion.after(40, turn=lambda k: 0.26 + 0.001 * k) == TURN
+    assert motion.watch.turn == pytest.approx(np.sin(0.299) - np.sin(0.2), abs=1e-6)
+    # The other sole, one that lifts off, and one that rolls over its edge may turn.
+    for right, load, force in ((False, 1.0, EVEN), (True, 0.7, EVEN), (True, 1.0, EDGE), (True, 1.0, np.nan * EVEN)):
+        motion = Motion(form)
+        motion.after(100)
+        motion.watch.begin_support(right)
+        found = 0
+        for k in range(100):
+            found |= motion.tick(turn=0.001 * k, load=load, force=force)
+        assert found & TURN == 0
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_sole_that_turned_as_a_flat_one_in_earlier_supports_may_turn_farther(form):
     motion = Motion(form)
-    motion.after(100, load=lambda k: 0.1)
-    assert motion.after(60, turn=lambda k: 0.0015 * k) & TURN == 0
+    motion.watch.begin_support(True)
+    assert motion.after(60, turn=lambda k: 0.001 * k) == 0
+    motion.watch.end_support()
+    motion.watch.begin_support(True)
+    assert motion.after(185, turn=lambda k: 0.001 * k) == 0  # 2 x 0.059 + 0.07
+    assert motion.after(10, turn=lambda k: 0.19 + 0.001 * k) == TURN
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_of_ticks_that_cannot_be_compared_the_turn_is_looked_at(form):
+    motion = Motion(form)
+    motion.watch.begin_support(False)
+    found = 0
+    for turn in (0.0, 0.08):
+        rotations = {"left": rotation_from_vector(np.array([0.0, turn, 0.0]))}
+        command = SimpleNamespace(state=SimpleNamespace(rotations_sole=rotations))
+        sensors = SimpleNamespace(readings={"left": SimpleNamespace(force=EVEN)})
+        found = motion.watch.turned(sensors, command, 0.6 * WEIGHT, 0.0)
+        assert found == (TURN if turn else 0)
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -139,11 +175,12 @@ def test_compiled_and_interpreted_watch_agree():
         changes = {"off": rng.normal(), "load": rng.uniform(0.3, 1.5), "turn": 0.1 * rng.normal(), "gyro": 0.03}
         found = [motion.tick(**changes) for motion in motions]
         assert found[0] == found[1]
-        for name in ("acceleration", "turn", "turn_x", "turn_y", "load", "turns_right"):
+        for name in ("acceleration", "turn", "load"):
             assert getattr(motions[0].watch, name) == pytest.approx(getattr(motions[1].watch, name), abs=1e-9)
         if k % 130 == 129:
             for motion in motions:
                 motion.watch.end_support()
+                motion.watch.begin_support(k % 2 == 0)
         if k == 333:
             for motion in motions:
                 motion.watch.skip()

@@ -15,7 +15,7 @@ def check_of(form, joints=2, **changes):
 
 
 def walked(check, ticks, miss, begin=0, joints=2):
-    """Give moving targets, followed two and a half ticks late; when each joint is noticed first, and one is off, in ticks."""
+    """Give moving targets, followed two and a half ticks late; ticks at which each joint is noticed, and one is off."""
     noticed = {}
     off = None
     for k in range(begin, begin + ticks):
