@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.arguments import positive
-from plantar.common.sides import Side, other_side
+from plantar.common.sides import SIDES, Side, other_side
 from plantar.gait.command import Command, Sensors
 from plantar.gait.estimate.estimator import Posture
 from plantar.gait.plan.phases import PhaseKind
@@ -21,7 +21,7 @@ from plantar.gait.safety.fault_log import FaultLog
 from plantar.gait.safety.safe_stop import SITS, SafeStop
 from plantar.gait.safety.supervision import Supervision
 from plantar.gait.safety.target_limits import TargetLimits
-from plantar.gait.safety.taxel_check import TaxelCheck
+from plantar.gait.safety.taxel_check import AIR, TaxelCheck
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
 from plantar.kernels.safety.tick_clock import TickClock
 from plantar.layouts.layout import SoleLayout
@@ -102,12 +102,12 @@ class SafetyShell:
         self._limits = TargetLimits(period, leg, math.sqrt(leg / GRAVITY), self._weight)
         self._joints = joints
         self._body: BodyCheck | None = None
-        self._soles = SoleCheck(self._weight, _UNLOADED * self._weight)
         self._taxels = TaxelCheck(layouts, self._weight, period)
         self._noted: dict[str, float] = {}
         self._jumps = 0
         self._missed = 0.0
         self._stuck = round(FROZEN / period)
+        self._soles = SoleCheck(self._weight, _UNLOADED * self._weight, AIR * self._weight, self._stuck)
         self._bridged = round(_SILENT / period)
         self._silent = 0
         self._unloaded = 0
@@ -196,6 +196,13 @@ class SafetyShell:
         if dead > self._dead and self._begun:
             self._note("dead", f"{dead} taxels without a number, {self._dead} before")
         self._dead = dead
+
+    def _note_stuck(self, soles: SoleCheck) -> None:
+        """Log a taxel that repeats its reading while its sole's others do not."""
+        for side, taxel in zip(SIDES, (soles.left_stuck, soles.right_stuck), strict=True):
+            if taxel >= 0:
+                name = self._taxels.ids[side][taxel]
+                self._note(f"{side} taxel {name}", f"taxel {name} of the {side} sole repeats its reading")
 
     def _note_clock(self, jumped: float) -> None:
         """Log a time that is not the one that was expected."""
@@ -358,8 +365,7 @@ class SafetyShell:
         left = readings.get("left")
         right = readings.get("right")
         if left is not None and right is not None:
-            loads = (soles.left, soles.right)
-            sound = self._taxels.checked(readings, loads, sensors.accelerometer, self._last.phase, time)
+            sound = self._taxels.checked(readings, soles, sensors.accelerometer, self._last.phase, time)
             if sound is not readings:
                 readings = sound
                 left = readings["left"]
@@ -370,6 +376,8 @@ class SafetyShell:
         seen = _UNREAD
         if left is not None and right is not None and self._lost is None:
             seen = soles.look(left.force, counts["left"], right.force, counts["right"])
+            if soles.left_stuck >= 0 or soles.right_stuck >= 0:
+                self._note_stuck(soles)
         if seen == _CARRY:
             self._carried = True
             self._empty = 0

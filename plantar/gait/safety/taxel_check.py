@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.gait.plan.phases import UP, Phase
+from plantar.kernels.safety.plausible import SoleCheck
 from plantar.kernels.safety.taxel_watch import TaxelWatch
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.reading import Reading
@@ -21,7 +22,7 @@ _REST = 0.75
 _MOST = 0.15  # chosen: weight on a taxel that is not looked at; a flat sole of 42 has 0.024 each
 _ALONE = 4.0  # chosen: times its neighbours' forces, as none of a flat or tilted sole has
 _CONFIRMED = 0.04  # chosen: s; impacts are shorter
-_AIR = 0.02  # derived: weight on a taxel in the air: ten times the noise of an H1's
+AIR = 0.02  # derived: weight on a taxel in the air, or that pulls: ten times the noise of an H1's
 _AIR_FOR = 0.06  # measured: s; a swing whose foot touches something early ends within 0.03 s
 _FEW = 0.1  # chosen: share of a sole's taxels; more of them that report in the air touch something
 _CARRIED = 0.7  # of the weight on the other foot while one is up; chosen: bounded by a half, which two feet carry each
@@ -40,10 +41,11 @@ class TaxelCheck:
     Attributes:
         found: What was left out at the last tick and not before, in words.
         count: Taxels that are left out.
+        ids: Of each side's taxels.
     """
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], weight: float, period: float) -> None:
-        self._ids = {side: layouts[side].ids for side in SIDES}
+        self.ids = {side: layouts[side].ids for side in SIDES}
         self._watches = {side: _watch(layouts[side], weight, period) for side in SIDES}
         self._weight = weight
         self._named: dict[Side, set[int]] = {side: set() for side in SIDES}
@@ -54,25 +56,26 @@ class TaxelCheck:
     def checked(
         self,
         readings: Readings,
-        loads: tuple[float, float],
+        soles: SoleCheck,
         accelerometer: NDArray[np.float64],
         phase: Phase,
         time: float,
     ) -> Readings:
         """Readings without the taxels that are left out: the same object where none is.
 
-        `loads` in N on the left and the right sole, of a tick ago; `accelerometer` (3,) in m/s^2; `phase` of the walk;
-        `time` of the plan in s.
+        `soles`: what they reported a tick ago; `accelerometer` (3,) in m/s^2; `phase` of the walk; `time` of the plan
+        in s.
         """
         weight = self._weight
         swing = phase.swing
         if swing is not None:
             share = (time - phase.start) / (phase.end - phase.start)
-            carried = loads[0 if swing == "right" else 1]
+            carried = soles.left if swing == "right" else soles.right
             if not UP[0] < share < UP[1] or carried < _CARRIED * weight:
                 swing = None
-        load = loads[0] + loads[1]
-        looks = swing is not None or load > _HEAVY * weight
+        load = soles.left + soles.right
+        pulls = soles.least < -AIR * weight
+        looks = swing is not None or load > _HEAVY * weight or pulls
         if not looks and not self._looked and not self.count:  # there is nothing to look at, nor to end
             return readings
         self._looked = looks
@@ -81,8 +84,8 @@ class TaxelCheck:
             spare = load - _REST * weight
         left = self._watches["left"]
         right = self._watches["right"]
-        changed = left.update(readings["left"].force, spare, swing == "left")
-        changed |= right.update(readings["right"].force, spare, swing == "right")
+        changed = left.update(readings["left"].force, spare, swing == "left", pulls)
+        changed |= right.update(readings["right"].force, spare, swing == "right", pulls)
         if changed:
             self.count = left.count + right.count
             self._name(readings)
@@ -98,7 +101,7 @@ class TaxelCheck:
                 if i not in self._named[side]:
                     self._named[side].add(int(i))
                     force = readings[side].force[i]
-                    words.append(f"taxel {self._ids[side][i]} of the {side} sole left out: it reads {force:.0f} N")
+                    words.append(f"taxel {self.ids[side][i]} of the {side} sole left out: it reads {force:.0f} N")
         self.found = "; ".join(words)
 
 
@@ -111,7 +114,7 @@ def _watch(layout: SoleLayout, weight: float, period: float) -> TaxelWatch:
         _MOST * weight,
         _ALONE,
         max(1, round(_CONFIRMED / period)),
-        _AIR * weight,
+        AIR * weight,
         max(1, round(_AIR_FOR / period)),
         max(1, round(_FEW * len(layout))),
     )

@@ -4,6 +4,7 @@ from ..base cimport pointers as memory
 from libc cimport math
 
 cdef double _INFINITE, _NONE, _FAST, _TURNED, _SPIN, _SHOCK
+cdef int _FEW
 
 cpdef bint are_finite(joints, gyro, accelerometer) except -1
 cdef bint _finite(array) except -1
@@ -36,9 +37,12 @@ cdef class BodyCheck:
 
 @cython.final
 cdef class SoleCheck:
-    cdef double weight, carried
-    cdef readonly double left, right
-    cdef readonly int left_same, right_same, dead
+    cdef double weight, carried, most
+    cdef readonly double left, right, least
+    cdef readonly int left_same, right_same, dead, left_stuck, right_stuck
+    cdef int frozen, stuck, fresh
+    cdef double left_readings, right_readings
+    cdef object left_kept, right_kept
     cdef bint steady
     cdef readonly bint swapped
     @cython.locals(one=double, other=double)
@@ -46,8 +50,8 @@ cdef class SoleCheck:
     cpdef void skip(self) noexcept
     @cython.locals(new_left=double, new_right=double, old_left=double, old_right=double, near=double, anew=bint)
     cpdef int update(self, left, int left_count, right, int right_count) except -2
-    @cython.locals(i=int, total=double, value=double)
-    cdef double _total(self, double* force, int count) noexcept
+    @cython.locals(i=int, total=double, value=double, loaded=int, changed=int, stuck=int, which=int)
+    cdef double _total(self, double* force, int count, double* kept, double readings) noexcept
 
 @cython.final
 cdef class TargetMoves:

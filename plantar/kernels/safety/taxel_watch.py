@@ -14,7 +14,8 @@ class TaxelWatch:
 
     A taxel is left out that, while both soles report more than the robot weighs, reads a multiple of each of its
     neighbours for some ticks, and without which they still report its weight; and one that reads a load while its foot
-    is in the air, where few of its sole do, until a swing in which it does not.
+    is in the air, where few of its sole do, until a swing in which it does not. So is one that pulls, in the air or
+    not, where few of its sole do.
 
     Args:
         starts: Where each taxel's neighbours begin in `neighbours`, and where the last one's end (n + 1,), as numbers.
@@ -45,15 +46,16 @@ class TaxelWatch:
         self.count = 0
         self.over = np.zeros(self.taxels)
         self.flown = np.zeros(self.taxels)
+        self.pulled = np.zeros(self.taxels)
         self.before = np.zeros(self.taxels)
         self.was_up = False
         self.begun = False
 
-    def update(self, force, spare, up):
+    def update(self, force, spare, up, pulls):
         """Take a tick's forces (n,) in N.
 
         `spare`: force in N on both soles that the robot need not weigh, 0 where they do not report too much; `up`: the
-        foot is in the air.
+        foot is in the air; `pulls`: some taxel of either sole pulls.
 
         Returns whether other taxels are left out than before.
         """
@@ -67,6 +69,8 @@ class TaxelWatch:
         elif self.was_up:
             changed = self._land(n)
         self.was_up = up
+        if pulls:
+            changed |= self._pull(f, n)
         if spare > 0.0:
             changed |= self._compare(f, n, spare)
         elif self.begun:
@@ -106,6 +110,26 @@ class TaxelWatch:
                 changed = True
         return changed
 
+    def _pull(self, f, n):
+        """Leave out what reads less than nothing by more than its zero can be off."""
+        out = memory.room(self.out)
+        pulled = memory.room(self.pulled)
+        below = 0
+        for i in range(n):
+            if f[i] < -self.air:
+                below += 1
+        if below == 0 or below > self.few:
+            return False
+        changed = False
+        for i in range(n):
+            if f[i] < -self.air:
+                pulled[i] += 1.0
+                if out[i] == 0.0 and pulled[i] >= self.ticks:
+                    out[i] = 1.0
+                    self.count += 1
+                    changed = True
+        return changed
+
     def _fly(self, f, n):
         """Leave out what reads a load in the air again and again."""
         out = memory.room(self.out)
@@ -128,16 +152,18 @@ class TaxelWatch:
         return changed
 
     def _land(self, n):
-        """Take back what read no load in the swing that has ended."""
+        """Take back what read no load in the swing that has ended, and did not pull since the one before."""
         out = memory.room(self.out)
         flown = memory.room(self.flown)
+        pulled = memory.room(self.pulled)
         before = memory.room(self.before)
         changed = False
         for i in range(n):
             before[i] = before[i] + flown[i] if flown[i] != 0.0 else 0.0
-            if out[i] != 0.0 and flown[i] == 0.0:
+            if out[i] != 0.0 and flown[i] == 0.0 and pulled[i] == 0.0:
                 out[i] = 0.0
                 self.count -= 1
                 changed = True
             flown[i] = 0.0
+            pulled[i] = 0.0
         return changed

@@ -1,5 +1,7 @@
 """Single taxels that report what none can are left out and named; those of sound soles never are."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -22,11 +24,13 @@ def after(ticks, forces, phase=BOTH, begin=0.0, check=None, pull=9.81):
     """The check and what it makes of the last of some ticks' forces on the left and right sole."""
     check = TaxelCheck(dict.fromkeys(SIDES, LAYOUT), WEIGHT, PERIOD) if check is None else check
     loads = (0.5 * WEIGHT, 0.5 * WEIGHT) if phase is BOTH else (0.0, WEIGHT)
+    soles = SimpleNamespace(left=loads[0], right=loads[1], least=0.0)
     words = []
     for i in range(ticks):
         given = {s: Reading(0.0, f.copy()) for s, f in zip(SIDES, forces, strict=True)}
-        seen = check.checked(given, loads, np.array([0.0, 0.0, pull]), phase, begin + i * PERIOD)
-        loads = tuple(float(np.nansum(seen[s].force)) for s in SIDES)
+        seen = check.checked(given, soles, np.array([0.0, 0.0, pull]), phase, begin + i * PERIOD)
+        soles.left, soles.right = (float(np.nansum(seen[s].force)) for s in SIDES)
+        soles.least = min(0.0, *(float(np.nanmin(seen[s].force)) for s in SIDES))
         words.append(check.found)
         check.found = ""
     return check, given, seen, [word for word in words if word]
@@ -119,3 +123,21 @@ def test_a_foot_that_catches_a_fall_keeps_its_taxels():
     forces[3] = 0.5 * WEIGHT
     _, given, seen, _ = after(20, (forces, 0.4 * EVEN), SWING, 0.3)
     assert seen is given
+
+
+def test_a_taxel_that_pulls_is_left_out_at_any_time_and_until_a_step_in_which_it_does_not():
+    check, _, seen, words = after(10, (with_taxel(3, -40.0), EVEN))
+    assert np.flatnonzero(np.isnan(seen["left"].force)).tolist() == [3]
+    assert words == [f"taxel {LAYOUT.ids[3]} of the left sole left out: it reads -40 N"]
+    for out in (True, False):  # a swing ends the step in which it pulled, the next one a step in which it did not
+        after(4, (np.zeros(N), 2.0 * EVEN), SWING, 0.3, check)
+        seen = after(2, (EVEN, EVEN), check=check)[2]
+        assert np.isnan(seen["left"].force[3]) == out
+
+
+def test_taxels_that_pull_little_at_times_or_together_stay():
+    assert after(40, (with_taxel(3, -0.9 * 0.02 * WEIGHT), EVEN))[3] == []
+    assert after(7, (with_taxel(3, -40.0), EVEN))[3] == []
+    forces = EVEN.copy()
+    forces[: N // 4] = -40.0  # a sole whose zero is off
+    assert after(40, (forces, EVEN))[3] == []

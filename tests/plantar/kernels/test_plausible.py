@@ -83,3 +83,56 @@ def test_one_number_that_is_not_finite_is_seen(form, which):
     for fault in (np.nan, np.inf, -np.inf):
         arrays[which][1] = fault
         assert not form.are_finite(*arrays)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_taxel_that_repeats_itself_while_the_others_change(form):
+    rng = np.random.default_rng(4)
+    check = form.SoleCheck(800.0, 240.0, 16.0, 24)
+
+    def found(ticks, change):
+        seen = set()
+        for k in range(ticks):
+            left, right = (rng.normal(20.0, 1.0, 20) for _ in range(2))
+            change(k, left, right)
+            check.look(left, 20, right, 20)
+            seen.add((check.left_stuck, check.right_stuck))
+        return seen
+
+    assert found(100, lambda k, left, right: None) == {(-1, -1)}
+    assert found(24, lambda k, left, right: right.put(7, 60.0)) == {(-1, -1)}
+    assert found(5, lambda k, left, right: right.put(7, 60.0)) == {(-1, 7)}
+    assert found(60, lambda k, left, right: left.put(3, 0.0)) == {(-1, -1)}  # a taxel over a gap
+    assert found(60, lambda k, left, right: left.put(range(5), 60.0)) == {(-1, -1)}  # all at the end of their range
+    coarse = rng.normal(20.0, 1.0, 20)
+    assert found(60, lambda k, left, right: left.put(range(12), coarse[:12])) == {(-1, -1)}  # in coarse steps
+    last = [coarse, coarse]
+
+    def slow(k, left, right):  # 50 Hz: between two readings all repeat themselves
+        if k % 4 == 0:
+            last[:] = left.copy(), right.copy()
+        left[:], right[:] = last
+
+    assert found(100, slow) == {(-1, -1)}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_least_force_of_a_taxel(form):
+    check = form.SoleCheck(800.0, 240.0)
+    check.look(np.array([300.0, -20.0]), 2, np.array([300.0, np.nan]), 2)
+    assert check.least == -20.0
+    check.look(np.array([300.0, 0.0]), 2, np.array([300.0, 4.0]), 2)
+    assert check.least == 0.0
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_height_of_a_command_s_state(form):
+    moves = form.TargetMoves(*LIMITS, 0.5)
+    assert moves.height == np.inf
+    given = targets(np.random.default_rng(3))
+    moves.within(command(given))
+    assert moves.height == 0.8
+    moves.within(command(given, com=(1.0, 0.0, 0.3)))
+    assert moves.height == 0.3
+    moves.within(command(given, up=0.49))
+    assert moves.height == -np.inf
