@@ -151,16 +151,13 @@ def _gather(patch: Patch, work: PatchWork, s: wp.int32, place: wp.vec3d, out: wp
 
 
 @func
-def _nearest(patch: Patch, place: wp.vec3d, out: wp.vec3d) -> wp.int32:
+def _nearest(patch: Patch, place: wp.vec3d) -> wp.int32:
     nearest = wp.int32(0)
     least = wp.float64(1e300)
-    faces = wp.int32(0)
     for i in range(patch.areas.shape[0]):
         off = patch.positions[i] - place
         away = wp.dot(off, off)
-        facing = wp.where(-wp.dot(patch.normals[i], out) > _LEVEL, 1, 0)
-        if facing > faces or (facing == faces and away < least):
-            faces = facing
+        if away < least:
             least = away
             nearest = i
     return nearest
@@ -242,7 +239,7 @@ def _tilted(work: PatchWork, s: wp.int32, count: wp.int32, load: wp.vec3d):
 def _share(patch: Patch, work: PatchWork, w: wp.int32, s: wp.int32, place: wp.vec3d, out: wp.vec3d, force: wp.vec3d):
     count = _gather(patch, work, s, place, out)
     if count == 0:
-        wp.atomic_add(work.vectors, w, _nearest(patch, place, out), force)
+        wp.atomic_add(work.vectors, w, _nearest(patch, place), force)
     total = wp.float64(0.0)
     middle = wp.vec2d()
     for i in range(count):

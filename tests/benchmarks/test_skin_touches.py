@@ -20,8 +20,21 @@ def check(count):
     assert count.farthest < 1.3
 
 
+PLATES = """<mujoco><worldbody><body name="plates"><freejoint/>
+  <geom type="box" size=".0368 .1049 .0034" pos="-.0217 .0012 .0775" euler="175 139.1 82.6"/>
+  <geom type="box" size=".0037 .1195 .0162" pos="-.0482 -.0148 .0048" euler="-148.9 -28 172.4"/>
+  </body></worldbody></mujoco>"""
+
+
 def test_a_limb_agrees_with_the_count():
     check(counted("limb", mujoco.MjSpec.from_string(LIMB), 1))
+
+
+def test_the_rim_of_a_plate_lights_the_nearest_cell():
+    """No cell near there faces the touch: the plate is thinner than a cell."""
+    count = counted("plates", mujoco.MjSpec.from_string(PLATES), 1, seed=12)
+    assert count.farthest < 1.3
+    assert count.taxel_error < 1e-9
 
 
 @pytest.mark.long

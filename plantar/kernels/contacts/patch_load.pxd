@@ -48,8 +48,8 @@ cdef class PatchLoad:
         facing=double, count=Py_ssize_t
     )
     cdef Py_ssize_t _gather(self, double nx, double ny, double nz) noexcept
-    @cython.locals(least=double, away=double, nearest=Py_ssize_t, facing=bint, faces=bint)
-    cdef Py_ssize_t _nearest(self, double nx, double ny, double nz) noexcept
+    @cython.locals(least=double, away=double, nearest=Py_ssize_t)
+    cdef Py_ssize_t _nearest(self) noexcept
     cdef double _facing(self, Py_ssize_t i, double nx, double ny, double nz) noexcept
     cdef void _add(self, Py_ssize_t i, double share, double fx, double fy, double fz, double depth) noexcept
 

@@ -22,7 +22,8 @@ class PatchLoad:
       point belong to the patch's region. Others are not read.
     - The weight of a cell of area A whose axis makes the angle t with the contact's normal, at a distance d: A cos t
       (1 - d^2 / radius^2), none if negative; then w max(0, a + b u + c v), (u, v) across the normal, such that the
-      contact's point is the shares' center; plain weights where the point is beyond the cells.
+      contact's point is the shares' center; plain weights where the point is beyond the cells; the nearest cell where
+      none has a weight.
     - Cells have their share of the whole force, normal and tangential, so that forces add up to the contacts'.
 
     Args:
@@ -265,7 +266,7 @@ class PatchLoad:
         rows = self.rows
         count = self._gather(nx, ny, nz)
         if count == 0:
-            self._add(self._nearest(nx, ny, nz), 1.0, fx, fy, fz, depth)
+            self._add(self._nearest(), 1.0, fx, fy, fz, depth)
             return
         cu, cv, scale = pressed_patch._centred(rows, count, 1e-6)
         found = False
@@ -324,19 +325,16 @@ class PatchLoad:
                 count += 1
         return count
 
-    def _nearest(self, nx, ny, nz):
-        """The cell nearest `place` of those that face the normal; the nearest of all where none does."""
+    def _nearest(self):
+        """The cell nearest `place`."""
         nearest = 0
         least = 1e300
-        faces = False
         for i in range(self.areas.shape[0]):
             dx = self.positions[i, 0] - self.place[0]
             dy = self.positions[i, 1] - self.place[1]
             dz = self.positions[i, 2] - self.place[2]
             away = dx * dx + dy * dy + dz * dz
-            facing = self._facing(i, nx, ny, nz) > _LEVEL
-            if (facing and not faces) or (facing == faces and away < least):
-                faces = facing
+            if away < least:
                 least = away
                 nearest = i
         return nearest
