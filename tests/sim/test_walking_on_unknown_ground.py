@@ -52,6 +52,15 @@ def test_a_slab_is_stepped_on_softly():
     assert max(summary["impacts_N"]) < 0.5 * WEIGHT
 
 
+@pytest.mark.parametrize(("at", "touches"), [("sight", 0), ("probe", 1)])
+def test_a_block_that_is_seen_to_be_small_is_not_touched(at, touches):
+    (seed,) = drawn_seeds(test_a_block_that_is_seen_to_be_small_is_not_touched, 1)
+    summary = run_scene(load_scene("feasibility-2", ["settle=0.3", f"feasibility.at={at}"]), seed)
+    assert summary["completed"]
+    assert [(c["step"], c["feasible"]) for c in summary["feasibility"]] == [(4, False)]
+    assert len(summary["landings_s"]) == 8 + touches
+
+
 @pytest.mark.sample(1, each="feasible")
 @pytest.mark.parametrize(
     ("scene", "robot", "feasible"),

@@ -114,6 +114,7 @@ class FootMotion:
         self._lift_off = False
         self._touchdown = False
         self._distance: NDArray[np.float64] | None = None
+        self._below: NDArray[np.float64] | None = None
         self._lowered = 0.0
         self._lowering = 0.0
         self._touch = (0.0, 0.0)
@@ -169,6 +170,7 @@ class FootMotion:
             self.ahead,
             self.surprise,
             self._distance,
+            self._below,
         )
 
     def rotation(self, side: Side) -> NDArray[np.float64]:
@@ -261,17 +263,17 @@ class FootMotion:
         self.landed = True  # it touched, or the plan puts weight on it now
         self._press(self._side, load)
 
-    def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
+    def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame, lifts: bool = False) -> None:
         """Follow a plan changed in the swing; a landed foot lifts and steps again.
 
-        `time` in s; `frame`: command frame.
+        `time` in s; `frame`: command frame; `lifts`: whether a foot in the air does so, too, off ground that it sees.
         """
         if self._swing is None or phase.swing is None or phase.step != self._step:
             return
         moves = target != self._target
         if not moves and (self.landed or abs(phase.touchdown - self._start - self._swing.duration) < SAME_TIME):
             return
-        if self.landed:
+        if self.landed or lifts:
             here = self.footholds[self._side][0][:2]
             if math.dist(frame.to_command(target.position[:2]), here) < _SAME_PLACE * self._leg:
                 self._target = target  # the plan has only taken over where it stands
@@ -333,6 +335,7 @@ class FootMotion:
         self.surprise = 0.0
         self.landed = False
         self._distance = None
+        self._below = None
         self._lowered = 0.0
         self._lowering = 0.0
         if self._compliance is not None:
@@ -381,6 +384,7 @@ class FootMotion:
         compliance = self._compliance[side]
         position, yaw = self.footholds[side]
         elapsed = time - self._start
+        self._below = None
         if not self.landed:
             above_frame = sense.position.item(2) - frame.z
             self._lag.update(position.item(2), above_frame)
@@ -423,6 +427,9 @@ class FootMotion:
                 # A block under a rim is not under the middle: unless all is one plane, what would be met first counts.
                 under = view.middle if view.even else min(view.middle, view.distance)
                 self.surprise = above_frame - under - self._expected
+                if self.surprise > 0.0 and not view.even:
+                    self._below = compliance.ground.distance
+                    self._below.flags.writeable = False
             near = view if remaining < _CLOSE_BY * self._leg else None
             turn = compliance.turn(self._tilts[side], near, period, self._slope)
             turn_x = turn.item(0)

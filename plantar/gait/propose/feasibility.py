@@ -31,7 +31,9 @@ class FeasibilityRules(
 
     Attributes:
         rule: "skin" or "force_torque".
-        at: "probe" presses before deciding; "impact" decides by the touch's first readings (T Table 3).
+        at: "sight" refuses what a foot over its place sees under too little of the sole, before it touches, and presses
+            on the rest; "probe" always presses before deciding; "impact" decides by the touch's first readings (T Table
+            3). What is seen is the height contour of the nearest ground (T 4.2.7).
         area_ratio: epsilon_A: no larger share is taken; above 1 none.
         hold: Single support's extension in s for that.
         active_force: Mean force in N of a carrying taxel, above noise.
@@ -46,7 +48,7 @@ class FeasibilityRules(
     """
 
     rule: str = choice("skin", "force_torque")
-    at: str = choice("probe", "impact")
+    at: str = choice("sight", "probe", "impact")
     # chosen: epsilon_A of T 4.3.2 is not printed; half a sole and what gains of taxels leave
     area_ratio: float = number(0.6, "1", 0, 2)
     # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
@@ -66,6 +68,8 @@ class FeasibilityRules(
     reserve: float = fixed(2.02, "beat")  # Least single support in s after the check; chosen: 0.5 s on h1
     active_force: float = share(0.00154, "weight", 0, 10000)  # chosen: 1.3 N on h1
     near: float = share(0.005, "leg", 0, 0.05)  # chosen: 3 mm on h1, 1.5 of a reading's noise
+    # Depth in m below the nearest ground from which a taxel has none to stand on; chosen: as `contact.step_down`
+    step_down: float = fixed(0.02, "leg")
     clearance: float = share(1 / 24, "leg", 0, 0.2)  # chosen: 25 mm on h1
     swing_time: float = share(5.66, "beat", 0.2, 10)  # nature: T 4.4.5's tss of HRP-2, 1.4 s
     # Duration in s of the swing back next to the other foot; chosen: 2.2 s on h1
@@ -129,6 +133,18 @@ class FootholdProbe:
         else:
             feasible = size is not None and size < self.rules.ankle_moment
         return Foothold(feasible, ratio, size, polygon)
+
+
+def seen_foothold(layout: SoleLayout, distance: NDArray[np.float64], rules: FeasibilityRules) -> Foothold | None:
+    """Returns the foothold that a sole's taxels see at distances (n,) in m, by its share of the sole: the contour of
+    what is nearest (T 4.2.7 corrected); dead taxels (NaN) count as ground. None if fewer than three see any.
+    """
+    nearest = np.sort(distance)[:3].mean()  # NaN comes last; three: one reading may be wrong
+    if not math.isfinite(nearest):
+        return None
+    polygon = cells_polygon(layout, ~(distance > nearest + rules.step_down))
+    ratio = area(polygon) / layout.sole_area
+    return Foothold(ratio > rules.area_ratio, ratio, None, polygon)
 
 
 def way_around(

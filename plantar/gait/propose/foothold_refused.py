@@ -1,9 +1,10 @@
 """Keeps walks off bad footholds, before weight transfer (T 4.3.2).
 
 walking --(ground higher than expected)--> doubting: the single support is extended, the foot lands softly doubting
---(touchdown)--> probing: the foot presses, the rule decides probing --(feasible)--> walking on over it probing
---(refused)--> the foot lifts again and goes around: walking probing --(no way around, or too many tries)--> the foot
-goes back next to the other one, and the walk ends
+--(too little ground seen under it)--> walking: it goes around without a touch doubting --(touchdown)--> probing: the
+foot presses, the rule decides probing --(feasible)--> walking on over it probing --(refused)--> the foot lifts again
+and goes around: walking probing --(no way around, or too many tries)--> the foot goes back next to the other one, and
+the walk ends
 
 One leg holds only as long as the measured DCM xi can be captured: for a time T the best ZMP p of the standing sole
 leaves it
@@ -28,7 +29,14 @@ from plantar.gait.contact.foot_contacts import REMEMBERED
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.gait.plan.plan_change import PlanChange, Point
-from plantar.gait.propose.feasibility import FeasibilityRules, Foothold, FootholdProbe, room_ahead, way_around
+from plantar.gait.propose.feasibility import (
+    FeasibilityRules,
+    Foothold,
+    FootholdProbe,
+    room_ahead,
+    seen_foothold,
+    way_around,
+)
 from plantar.gait.propose.proposer import Priority, Tick
 from plantar.geometry.polygon import signed_margin
 from plantar.layouts.layout import SoleLayout
@@ -62,14 +70,16 @@ class CheckedStep:
 class StepGuard:
     """Checks a walk's footholds.
 
-    `stopped`: whether it ended the walk without a way on; `press`: force in N of a probing foot; None without.
+    `stopped`: whether it ended the walk without a way on; `press`: force in N of a probing foot; None without; `lifts`:
+    whether this tick refuses a foothold that is seen and not touched.
     """
 
     priority = Priority.SAFETY
 
     def __init__(self, rules: FeasibilityRules, layouts: Mapping[Side, SoleLayout]) -> None:
         self.rules = rules
-        self._probes = rules.at == "probe"
+        self._probes = rules.at != "impact"
+        self._looks = rules.at == "sight" and rules.rule == "skin"
         self._force = rules.probe_force if self._probes else rules.impact_force
         # A pressing foot settles first; a touch is read from its beginning.
         self._settling, self._reading = (
@@ -78,6 +88,7 @@ class StepGuard:
         self.checked: list[CheckedStep] = []
         self.stopped = False
         self.press: float | None = None
+        self.lifts = False
         self._layouts = layouts
         self._state = _State.WALKING
         self._step = -1
@@ -87,6 +98,7 @@ class StepGuard:
         self._began = 0.0
         self._since = 0.0
         self._surprised = 0
+        self._unsafe = 0
         self._reading_time = -1.0
         self._refused = -math.inf
         self._alone: NDArray[np.float64] | None = None  # region (k, 2) in m of the ZMP under the standing foot
@@ -126,6 +138,7 @@ class StepGuard:
         """
         phase = tick.phase
         side = tick.phase.swing
+        self.lifts = False
         if side is None or self.stopped:
             self.press = None
             judges = phase.kind == PhaseKind.DOUBLE_SUPPORT and phase.step == self._step + 1 and not self.stopped
@@ -143,7 +156,20 @@ class StepGuard:
             self.press = self._force
             missing = self._touch(side, tick) - phase.end
             return self._waiting(phase, missing, tick) if self._probes and missing > 0.0 else None
+        if self._state is _State.DOUBTING and self._looks:
+            return self._seen(phase, side, tick)
         return self._probed(phase, side, tick)
+
+    def _seen(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
+        """Another place for a foothold that is seen under too little of the sole for some ticks on end."""
+        below = tick.feet.below
+        found = None if below is None else seen_foothold(self._layouts[side], below, self.rules)
+        self._unsafe = self._unsafe + 1 if found is not None and not found.feasible else 0
+        if found is None or self._unsafe < _LASTING or not self._captures(self.rules.swing_time, tick):
+            return None
+        self._unsafe = 0
+        self.lifts = True
+        return self._judge(found, phase, side, tick)
 
     def _judge_on_both(self, tick: Tick) -> PlanChange | None:
         """A doubted foothold on which the plan puts weight by now."""
@@ -164,7 +190,7 @@ class StepGuard:
         if tick.time < self._since + self._settling + self._reading:
             return None
         self.press = None
-        return self._judge(support, side, tick)
+        return self._judge(self._probe.verdict(), support, side, tick)
 
     def _waiting(self, phase: Phase, by: float, tick: Tick) -> PlanChange | None:
         """A single support that is longer by a time in s, or as much of it as can be captured."""
@@ -231,9 +257,7 @@ class StepGuard:
             pressing = load > 0.5 * self._force
             self._probe.update_load(reading.force, tick.moments.get(side) if pressing else None)
 
-    def _judge(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
-        assert self._probe is not None
-        found = self._probe.verdict()
+    def _judge(self, found: Foothold, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
         step = tick.plan.foothold(phase.step)
         if not found.feasible:
             self._refused = phase.step

@@ -292,8 +292,9 @@ class Footing:
     def follow(self, phase: Phase, time: float) -> FeetView:
         """Returns feet that follow a changed plan in a phase, at a time in s."""
         if phase.swing is not None:
-            landed = self.motion.landed
-            self.motion.aim(phase, time, self._plan.view.foothold(phase.step), self.frame)
+            lifts = self.guard is not None and self.guard.lifts
+            landed = self.motion.landed or lifts
+            self.motion.aim(phase, time, self._plan.view.foothold(phase.step), self.frame, lifts)
             if landed and not self.motion.landed:  # it takes its step once more
                 self.contacts.lift_off(phase.swing, phase.step)
         return self.motion.view

@@ -250,6 +250,28 @@ def test_a_foot_that_has_landed_waits_where_it_is_when_its_phase_is_made_longer(
     assert motion.footholds["left"][0].tolist() == before.tolist()
 
 
+def test_a_foot_in_the_air_rises_again_before_it_leaves_what_it_sees_next_to_it():
+    motion, _ = walked(0.0, 1.9)
+    feet, steps = straight_plan(2)
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    schedule = schedule.delayed(schedule.at(1.9), 1.4)
+    target = replace(steps[0], x=steps[0].x - 0.1)
+    assert not motion.landed
+    low = motion.footholds["left"][0].copy()
+    motion.aim(schedule.at(1.9), 1.9, target, frame, lifts=True)
+    way = []
+    for k in range(1, 290):
+        time = 1.9 + k * PERIOD
+        motion.update(schedule.at(time), time, target, {"left": 0.0, "right": 800.0}, frame)
+        way.append(motion.footholds["left"][0].copy())
+    path = np.array(way)
+    highest = int(path[:, 2].argmax())
+    assert path[highest, 2] > low[2] + 0.02
+    assert abs(path[: highest // 2, 0] - low[0]).max() < 0.02  # up first
+    assert path[-1, 0] == pytest.approx(target.x, abs=0.005)
+
+
 def test_a_foot_that_sees_the_ground_presses_as_it_is_told():
     """The force is an argument of each tick: nobody can leave one behind for another to meet."""
     layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

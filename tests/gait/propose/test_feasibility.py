@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from plantar import InputError, hex_layout
-from plantar.gait.propose.feasibility import FeasibilityRules, FootholdProbe, room_ahead, way_around
+from plantar.gait.propose.feasibility import FeasibilityRules, FootholdProbe, room_ahead, seen_foothold, way_around
 from plantar.geometry.polygon import area
+from plantar.sensing.proximity import cells_polygon
 
 OUTLINE = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 LAYOUT = hex_layout(OUTLINE)
@@ -29,6 +30,31 @@ def test_a_slab_is_stepped_on_and_a_small_block_is_not():
     assert not block.feasible
     assert block.area_ratio == pytest.approx(area(block.polygon_in_sole) / LAYOUT.sole_area)
     assert 0.05 < block.area_ratio < 0.5
+
+
+def test_what_is_seen_is_the_contour_of_the_nearest_ground():
+    over = LAYOUT.positions[:, 0] > 0.0
+    distance = np.where(over, 0.011, 0.041)
+    half = seen_foothold(LAYOUT, distance, RULES)
+    assert half is not None
+    assert not half.feasible
+    assert half.polygon_in_sole == pytest.approx(cells_polygon(LAYOUT, over))
+    assert half.area_ratio == pytest.approx(area(half.polygon_in_sole) / LAYOUT.sole_area)
+    level = seen_foothold(LAYOUT, 0.01 + 0.03 * LAYOUT.positions[:, 0], RULES)
+    assert level is not None
+    assert level.feasible
+
+
+def test_nothing_is_refused_by_taxels_that_are_dead_or_see_nothing():
+    distance = np.full(len(LAYOUT), 0.01)
+    distance[::2] = np.nan
+    seen = seen_foothold(LAYOUT, distance, RULES)
+    assert seen is not None
+    assert seen.feasible
+    distance[:] = np.inf
+    distance[:2] = 0.01
+    assert seen_foothold(LAYOUT, distance, RULES) is None
+    assert seen_foothold(LAYOUT, np.full(len(LAYOUT), np.nan), RULES) is None
 
 
 def test_noise_alone_supports_nothing():

@@ -23,8 +23,10 @@ RULES = FeasibilityRules()
 FRONT = LAYOUT.positions[:, 0] > 0.07
 
 
-def ticks(plan, step, touch, carries, guard, tick_at):
-    """The ticks of a step that meets something high at a time in s after lift-off, which carries on some taxels."""
+def ticks(plan, step, touch, carries, guard, tick_at, sees=False):
+    """The ticks of a step that meets something high at a time in s after lift-off, which carries on some taxels, and
+    which the foot sees before.
+    """
     side = plan.view.foothold(step).side
     start = next(p.start for p in plan.schedule.phases if p.step == step and p.swing is not None)
     force = np.where(carries, 130.0 / carries.sum(), 0.0)
@@ -38,6 +40,8 @@ def ticks(plan, step, touch, carries, guard, tick_at):
         readings = {s: Reading(time=time, force=force if landed and s == side else 0.0 * force) for s in SIDES}
         pressed = guard.press or 0.0
         feet = FeetView(tick.feet.footholds, side, landed, surprise=surprise, distance=np.where(carries, 0.0, 0.03))
+        if sees and surprise and not landed:
+            feet = feet.changed(below=np.where(carries, 0.01, 0.04))
         loads = {side: pressed, **{s: 800.0 for s in SIDES if s != side}}
         yield tick.changed(feet=feet, readings=readings, loads=loads)
 
@@ -93,6 +97,34 @@ def test_a_foothold_under_the_toes_alone_is_walked_around(plan_of, tick_at):
     assert {m.reason for m in plan.record[-1].moved} == {"foothold refused", "foothold before it refused"}
     swing = plan.schedule.at(plan.record[-1].time)
     assert swing.touchdown == pytest.approx(plan.record[-1].time + RULES.swing_time)
+
+
+@pytest.mark.parametrize(("at", "touches"), [("sight", False), ("probe", True), ("impact", True)])
+def test_what_is_seen_under_the_toes_alone_is_walked_around_without_a_touch(at, touches, plan_of, tick_at):
+    guard, plan = guarding(replace(RULES, at=at)), plan_of()
+    for tick in ticks(plan, 2, 0.8, FRONT, guard, tick_at, sees=True):
+        change = guard.propose(tick)
+        if change is not None and change.foothold is not None:
+            break
+        assert not guard.lifts
+        if change is not None:
+            plan.apply(change, tick.time, np.empty((0, 2)))
+    assert change.reason == "foothold refused"
+    assert tick.feet.landed == touches
+    assert guard.lifts != touches
+    assert len(guard.checked) == 1
+    guard.propose(tick)
+    assert not guard.lifts
+
+
+def test_what_is_seen_under_the_whole_sole_is_touched_before_it_is_trusted(plan_of, tick_at):
+    guard, plan = guarding(), plan_of()
+    for tick in ticks(plan, 2, 0.8, np.ones(len(LAYOUT), dtype=bool), guard, tick_at, sees=True):
+        change = guard.propose(tick)
+        if change is not None:
+            plan.apply(change, tick.time, np.empty((0, 2)))
+        assert tick.feet.landed or not guard.checked
+    assert [c.foothold.feasible for c in guard.checked] == [True]
 
 
 def test_without_a_way_around_the_foot_goes_back_and_the_walk_ends(plan_of, tick_at):
