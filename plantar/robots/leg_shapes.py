@@ -82,7 +82,7 @@ def _collide(geom: Any, side: Side) -> None:
 
 
 def keep_apart(model: Any, robot: Robot) -> None:
-    """Shrink the legs' shapes, except feet, until apart in the robot's posture; disable failing ones.
+    """Shrink the legs' shapes, except feet, until apart and off the ground in the robot's posture; disable failing ones.
 
     Takes `model`.
     """
@@ -93,10 +93,23 @@ def keep_apart(model: Any, robot: Robot) -> None:
     mujoco.mj_kinematics(model, data)
     feet = {model.geom(f"{s}_foot_shape").id for s in SIDES}
     legs = {s: [g for g in range(model.ngeom) if int(model.geom_contype[g]) == COLLIDES[s][0]] for s in SIDES}
+    for side in SIDES:
+        ground = float(data.site_xpos[model.site(robot.legs[side].sole_site).id, 2])
+        for geom in legs[side]:
+            if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_CAPSULE:
+                _lift(model, data, geom, ground + _CLEAR * robot.com_height)
     for a, b in product(legs["left"], legs["right"]):
         free = [g for g in (a, b) if g not in feet]
         if free:
             _clear(model, data, (a, b), free, _CLEAR * robot.com_height)
+
+
+def _lift(model: Any, data: Any, capsule: int, least: float) -> None:
+    """Thin a capsule whose round end, about a low ankle, is below the height `least` in m."""
+    radius, half, _ = model.geom_size[capsule].tolist()
+    end = float(data.geom_xpos[capsule, 2]) - half * abs(float(data.geom_xmat[capsule, 8]))
+    if end - radius < least < end:
+        model.geom_size[capsule, 0] = end - least
 
 
 def _clear(model: Any, data: Any, pair: tuple[int, int], free: list[int], least: float) -> None:

@@ -125,3 +125,20 @@ def test_legs_that_keep_apart_move_as_if_they_had_no_shapes_to_the_last_bit(robo
         simulation.run()
         ends.append(simulation.world.data.qpos.copy())
     assert np.array_equal(*ends)
+
+
+def test_a_shank_above_a_low_ankle_is_off_the_ground(h1):
+    usual = build_world(h1, GROUND)
+    lowered = replace(h1, biped=replace(h1.biped, ankle_height=0.03))
+    world = build_world(lowered, GROUND)
+    placed(world)
+    for side, leg in lowered.legs.items():
+        sole = world.data.site(leg.sole_site).xpos[2]
+        for g in shapes(world, side):
+            name = world.model.body(world.model.geom_bodyid[g]).name
+            radius, half, _ = world.model.geom_size[g]
+            if name != f"{side}_foot":
+                lowest = world.data.geom_xpos[g, 2] - half * abs(world.data.geom_xmat[g, 8]) - radius
+                assert lowest >= sole + 0.005 * lowered.com_height
+                thinner = radius < usual.model.geom_size[g, 0]
+                assert thinner == (name == f"{side}_shank")
