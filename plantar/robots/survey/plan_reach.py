@@ -67,6 +67,7 @@ class PlanReach:
 
     Attributes:
         missed: Largest distance in m by which CoM or a standing sole misses its place, or a tenth of a swinging one's.
+        low: How far in m a swinging foot stays below its path at most.
         knee: Least bend of a knee in rad; negative backwards.
         straightest: Time in s of that.
         spare: Least distance in rad of each joint of a carrying leg to its limits, over both legs.
@@ -79,6 +80,7 @@ class PlanReach:
     """
 
     missed: float
+    low: float
     knee: float
     straightest: float
     spare: Array
@@ -168,6 +170,7 @@ class _Pass:
         self.outline = robot.layouts["left"].outline
         self.every = walked.timing.single_support / _INSTANTS
         self.missed = settled(robot, legs, walked.feet, walked.com_height)
+        self.low = 0.0
         self.probe = _Probe(robot, legs)
         self.knee = self.probe.knees(legs)
         self.straightest = 0.0
@@ -222,6 +225,8 @@ class _Pass:
         for s in SIDES:  # what a swinging foot misses in the air is made up for before it lands
             lands = s in carrying or phase.end - time < _LANDING * (phase.end - phase.start)
             self.missed = max(self.missed, (1.0 if lands else _SWINGING) * self.probe.off(s, positions[s]))
+        for s in yielding:
+            self.low = max(self.low, self.probe.below(s, positions[s]))
         self.missed = max(self.missed, self.probe.com_off(com))
         self.spare = np.minimum(self.spare, self.probe.spare(legs, carrying))
         points = {s: held[s].point for s in SIDES}
@@ -259,7 +264,7 @@ class _Pass:
         never = np.full(len(self.spare), math.inf)
         spare = self.spare if self.missed < _HOPELESS else -never
         return PlanReach(
-            self.missed, self.knee, self.straightest, spare, never, never, never, math.inf, math.inf, math.pi
+            self.missed, self.low, self.knee, self.straightest, spare, never, never, never, math.inf, math.inf, math.pi
         )
 
     def result(self) -> PlanReach:
@@ -282,6 +287,7 @@ class _Pass:
         turn = about_z / (_FRICTION * weight * _ARM * math.hypot(*(high - low)))
         return PlanReach(
             self.missed,
+            self.low,
             self.knee,
             self.straightest,
             self.spare,
@@ -354,6 +360,10 @@ class _Probe:
 
     def off(self, side: Side, position: Array) -> float:
         return float(np.linalg.norm(self._data.site_xpos[self._soles[side]] - position))
+
+    def below(self, side: Side, position: Array) -> float:
+        """How far in m a sole is below its place, likewise."""
+        return float(position[2] - self._data.site_xpos[self._soles[side], 2])
 
     def com_off(self, com: Array) -> float:
         mujoco.mj_comPos(self._model, self._data)

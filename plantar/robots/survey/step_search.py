@@ -186,7 +186,8 @@ def _least(
 
 def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: float) -> _Tried | None:
     robot = replace(_paced(robot, height, robot.pace), com_height=math.floor(1e4 * height) / 1e4)
-    reach = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height, QUICK_STEPS), _bears)
+    walk = straight_walk(robot, body, robot.com_height, QUICK_STEPS)
+    reach = plan_reach(robot, legs, walk, _bears)
     if not _bears(reach.missed, reach.knee, reach.spare):
         return None
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
@@ -197,7 +198,7 @@ def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: f
     straight = max(0.0, least - reach.knee)
     bent = max(0.0, reach.knee - least)
     over = 4.0 * max(0.0, asked - HELD) + 20.0 * max(0.0, asked - _FULL)
-    cost = paid + 0.2 * asked + over + 6.0 * straight + 0.5 * bent
+    cost = paid + 0.2 * asked + over + 6.0 * straight + 0.5 * bent + 0.2 * reach.low / walk.swing_height
     return _Tried(cost, paid, robot, body, reach)
 
 

@@ -12,7 +12,7 @@ from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.robots.survey.fitted_gait import fit_gait
+from plantar.robots.survey.fitted_gait import _crouch, fit_gait
 from plantar.robots.survey.plan_reach import _FRICTION, _Pass, plan_reach
 from plantar.robots.survey.step_search import SHIFT, TURN, straight_walk
 from plantar.sim.terrain import terrain_kinds
@@ -84,6 +84,25 @@ def test_steps_aside_lean_the_torso_about_the_feet_and_not_about_the_start():
     )
     assert many.missed == pytest.approx(few.missed, abs=1e-3)
     assert many.carrying == pytest.approx(few.carrying, rel=0.03)
+
+
+def test_a_crouch_leaves_a_swinging_foot_its_clearance_where_the_ankle_is_at_its_limit():
+    h1 = replace(load_robot("h1"), effort_limits=())
+    lower = list(h1.biped.joint_lower)
+    lower[4] = -45.0  # degrees: the sole's toes towards the shank
+    stiff = replace(h1, biped=replace(h1.biped, joint_lower=tuple(lower)))
+    crouches = []
+    for robot, held_down in ((h1, False), (stiff, True)):
+        legs = build_leg_model(robot)
+        body = body_of(robot, legs.model)
+        walked = straight_walk(robot, body, robot.com_height - 0.05 * body.leg, steps=2)
+        reach = plan_reach(robot, legs, walked)
+        assert (reach.low > 0.4 * walked.swing_height) == held_down
+        assert reach.low <= 10.0 * reach.missed + 1e-9
+        crouches.append(_crouch(robot, legs, body, 0.0))
+        lowest = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height - crouches[-1]))
+        assert lowest.low <= 0.34 * walked.swing_height
+    assert crouches[1] < 0.05 * body.leg <= crouches[0]
 
 
 def test_the_ground_is_as_slippery_as_scenes_lay_it():
