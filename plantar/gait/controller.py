@@ -105,7 +105,7 @@ class WalkingController:
         limits = {
             side: AnkleLimits(strips, s.balance.zmp_offset, legs.get(side)) for side, strips in s.ankle_limits.items()
         }
-        middles = {side: middle_of_sole(layouts[side], s.ankle_reach, limits.get(side)) for side in SIDES}
+        middles = {side: middle_of_sole(layouts[side], s.ankle_reach, limits.get(side), s.outward) for side in SIDES}
         self.middles = middles
         self.estimation = Estimation(s, feet, layouts, kinematics)
         omega = self.estimation.omega

@@ -56,6 +56,7 @@ class ControllerSettings(Settings):
         swing_height: Swing foot clearance in m.
         swing: Swing path.
         ankle_reach: Distance in m along the sole within which an ankle bears the robot.
+        outward: Share of the way from a sole's middle to its outer edge where it is loaded, as a sole that leans.
         trunk_lean: Torso roll in rad per metre of the CoM from the feet's middle.
         balance: Gains; they make the law.
         proposers: Of other packages, that run in this walk.
@@ -79,6 +80,7 @@ class ControllerSettings(Settings):
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)  # nature: K Table 1, 0.05 m
     swing: SwingKind = field(default_factory=PolynomialSwing)
     ankle_reach: float = number(1.0, "m", 0.0, 1.0)  # derived: farther than any sole: no limit
+    outward: float = number(0.0, "1", 0.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     touchdown: TouchdownGains = field(default_factory=TouchdownGains)

@@ -122,6 +122,7 @@ def controller_settings(
         swing_height=swing_height,
         swing=swing.from_table(tables.get(swing.table, {}), f"[{swing.table}]", SceneError),
         ankle_reach=robot.ankle_reach,
+        outward=robot.outward,
         feedback=control.feedback,
         zmp_source=control.zmp_source,
         ankles=ankles,

@@ -23,8 +23,9 @@ _DOUBLE_SUPPORT = 1.21  # nature: T 4.4.5
 _QUICK_SINGLE = 2.02  # chosen: bounded by the knee's speed in a swing of that time
 _QUICK_DOUBLE = 0.404  # chosen: shorter, loads jump from foot to foot
 
-# Least time in s of the first shift of the weight; chosen: a shift that is quicker leaves the feedback no time
-_LEAST_START = 0.2
+# Least time in s of the first and the last shift of the weight; chosen: a shift that is quicker leaves the feedback no
+# time. A longer one sways farther, and turns soles without ankle roll
+_LEAST_SHIFT = 0.2
 
 _VELOCITY_UNITS = ("s", "m/s", "m/s", "rad/s")  # Units of a row of a velocity command
 
@@ -238,5 +239,5 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
         double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
         if walk.approach_height > 0.0 and not robot.rocks and not stated[0]:
             single = max(single, robot.approach_support)
-    start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
+    start, end = (max(_LEAST_SHIFT, double),) * 2 if robot.rocks else (walk.start, walk.end)
     return Timing(single, double, start, end, walk.settle, walk.transfer)

@@ -42,18 +42,31 @@ _NARROW = 0.5
 
 
 def middle_of_sole(
-    layout: SoleLayout, reach: float = math.inf, limits: AnkleLimits | None = None
+    layout: SoleLayout, reach: float = math.inf, limits: AnkleLimits | None = None, outward: float = 0.0
 ) -> NDArray[np.float64]:
     """Returns the VRP (2,) over a whole foothold of a `layout`, sole frame, in m
     (`plantar.gait.contact.ankle_reach`).
 
-    `reach` is the distance in m along the sole at which the ankle bears the robot, `limits` by torques.
+    `reach` is the distance in m along the sole at which the ankle bears the robot, `limits` by torques; `outward` the
+    share of the way from there to the outer edge where a sole carries that leans.
     """
     outline = _carrying_outline(layout)
     middle = loaded_middle(outline, reach)
     best = _loaded(outline, reach, limits)
     near = limits is not None and math.dist(middle, best) <= _ASIDE * signed_margin(limits.within(outline), best)
-    return middle if near else best
+    place = middle if near else best
+    return place if outward == 0.0 else place + outward * (_outer_edge(outline, layout.side, place) - place)
+
+
+def _outer_edge(outline: NDArray[np.float64], side: Side, place: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Point (2,) of a convex outline (k, 2) beside a `place` in it, away from the other foot."""
+    x = place[0]
+    ends = np.roll(outline, -1, axis=0)
+    crossed = (outline[:, 0] <= x) != (ends[:, 0] <= x)
+    start = outline[crossed]
+    way = ends[crossed] - start
+    y = start[:, 1] + way[:, 1] * (x - start[:, 0]) / way[:, 0]
+    return np.array([x, y.max() if side == "left" else y.min()])
 
 
 def _loaded(
@@ -149,11 +162,12 @@ class FootContacts:
         reach: float = math.inf,
         limits: Mapping[Side, AnkleLimits] | None = None,
         sensing_range: float = math.inf,
+        outward: float = 0.0,
     ) -> None:
         self._settings = settings
         self._reach = reach
         self._limits = limits or {}
-        self._middle = {side: middle_of_sole(layouts[side], reach, self._limits.get(side)) for side in SIDES}
+        self._middle = {side: middle_of_sole(layouts[side], reach, self._limits.get(side), outward) for side in SIDES}
         self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}
         self._alone = {side: self._within_limits(side, self._borne[side], UPRIGHT) for side in SIDES}
         self._feet = {

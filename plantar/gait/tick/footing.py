@@ -73,7 +73,7 @@ class Footing:
             compliance = {side: SwingCompliance(layouts[side], *gains, s.timing.double_support) for side in SIDES}
         self.frame = CommandFrame(feet["left"].position, s.period, s.alignment_time)
         self.motion = FootMotion(feet, s.period, s.swing_height, s.landing, compliance, s.swing)
-        self.contacts = FootContacts(s.contact, layouts, s.ankle_reach, limits, s.ground_map.sensing_range)
+        self.contacts = FootContacts(s.contact, layouts, s.ankle_reach, limits, s.ground_map.sensing_range, s.outward)
         damping = DampingGains().for_body(s.body)
         self.damping = {side: LandingCompliance(s.period, damping) for side in SIDES}
         # chosen: gone before the next swing begins

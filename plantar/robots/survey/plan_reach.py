@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
-from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.plan.footsteps import Footstep, straight_plan
 from plantar.gait.plan.leg_momentum import LegMomentum
@@ -99,7 +98,7 @@ def speed_shares(robot: Robot, reach: PlanReach) -> Array:
 
 def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_height: float) -> float:
     """Stand the `legs` of a `robot` on `feet`, CoM at `com_height` in m; returns the error in m or rad."""
-    middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
+    middle = np.mean([vrp_of_step(feet[s], robot.middle_of_sole(s)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
     posture = posture_of(robot, legs)
     positions = {s: feet[s].position for s in SIDES}
@@ -123,7 +122,7 @@ def missed_aside(robot: Robot, legs: LegModel, aside: float) -> float:
     feet, _ = straight_plan(0, width=robot.stance_width)
     settled(robot, legs, feet, robot.com_height)
     feet["left"] = replace(feet["left"], y=feet["left"].y + aside)
-    x, y = vrp_of_step(feet["right"], middle_of_sole(robot.layouts["right"], robot.ankle_reach)).tolist()
+    x, y = vrp_of_step(feet["right"], robot.middle_of_sole("right")).tolist()
     return legs.follow(
         np.array([x, y, feet["right"].z + robot.com_height]),
         rotation_from_angles(0.0, roll=-robot.trunk_lean * (y - 0.5 * (feet["left"].y + feet["right"].y))),
@@ -166,7 +165,7 @@ class _Pass:
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
         self.legs = legs
         self.walked = walked
-        self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
+        self.middles = {s: robot.middle_of_sole(s) for s in SIDES}
         self.outline = robot.layouts["left"].outline
         self.every = walked.timing.single_support / _INSTANTS
         self.missed = settled(robot, legs, walked.feet, walked.com_height)

@@ -153,7 +153,8 @@ def _slowed(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
 
 def _others(robot: Robot, body: BodyScale, stated: bool) -> list[tuple[Robot, float]]:
     widths = [robot.stance_width]
-    if robot.stance_width > _WIDE * body.leg and not stated:
+    # Nearer feet lean legs without ankle roll, and so their soles, as they stand.
+    if robot.stance_width > _WIDE * body.leg and not stated and not robot.rocks:
         widths += [round(max(least_stance(robot), share * body.leg), 3) for share in _TRIED_STANCES]
     found = [
         (

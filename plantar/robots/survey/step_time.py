@@ -20,9 +20,8 @@ from plantar.robots.robot import Robot
 LEAN_MOST = math.radians(2.5)
 """Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""
 
-# Share of the way to a foot that the CoM sways at most. On an edge a sole carries further outside than planned, and
-# throws the CoM back earlier: of three drawn bipeds whose soles' edges are half as far out as their middles none
-# walked at a third of the way, and all at a fifth.
+# Share of the way to a foot's load that the CoM sways at most: of three drawn bipeds whose soles' edges are half as far
+# out as their middles none walked at a third of the way to the middles, and all at a fifth
 _NEAR = 0.2
 
 _SINGLE = 0.62  # of the time of a step; with more, feet that land on an edge have no time to come down flat
@@ -45,11 +44,13 @@ def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
 def rocking(robot: Robot, com_height: float) -> Robot:
     """Returns the `robot`, CoM at `com_height` in m, with a step time of little leg lean."""
     beat = math.sqrt(com_height / GRAVITY)
-    near = min(_NEAR, com_height * math.tan(LEAN_MOST) / (0.5 * robot.stance_width))
+    robot = replace(robot, rocks=True)
+    aside = 0.5 * robot.stance_width + float(robot.middle_of_sole("left")[1])
+    near = min(_NEAR, com_height * math.tan(LEAN_MOST) / aside)
     step = 2.0 * beat * math.acosh(1.0 / (1.0 - near))
     single = max(_SHORTEST, round(_SINGLE * step, 3))
     return replace(
-        robot, rocks=True, single_support=single, double_support=round((1.0 - _SINGLE) / _SINGLE * single, 3)
+        robot, single_support=single, double_support=round((1.0 - _SINGLE) / _SINGLE * single, 3)
     )
 
 

@@ -12,7 +12,6 @@ from plantar.common.arguments import instance, number, positive
 from plantar.common.gravity import GRAVITY
 from plantar.common.sides import SIDES, Side
 from plantar.errors import InputError
-from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.mujoco.bound_skin import SkinReading
 from plantar.mujoco.skin import Skin
@@ -97,7 +96,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         height = com_height_of(walk, self.robot)
         feet = start_of_walk(walk, self.robot, height).feet
         centers = {
-            s: vrp_of_step(feet[s], middle_of_sole(self.robot.layouts[s], self.robot.ankle_reach)) for s in SIDES
+            s: vrp_of_step(feet[s], self.robot.middle_of_sole(s)) for s in SIDES
         }
         stand(self.world, legs, LegServos(self.world, legs, self.period), feet, centers, height)
         self._start = self.data.qpos.copy(), self.data.ctrl.copy()

@@ -46,6 +46,18 @@ def test_a_sole_with_a_waist_is_loaded_where_its_hull_is(reach):
     assert middle_of_sole(waisted, reach) == pytest.approx(middle_of_sole(SOLE, reach), abs=1e-12)
 
 
+@pytest.mark.parametrize(("side", "outer"), [("left", 1.0), ("right", -1.0)])
+def test_a_sole_that_leans_is_loaded_towards_its_outer_edge(side, outer):
+    ring = np.array([[-0.1, -0.03], [0.15, -0.06], [0.15, 0.06], [-0.1, 0.03]])  # narrower at the heel
+    sole = replace(SOLE, outline=ring, side=side)
+    x, y = middle_of_sole(sole)
+    edge = 0.03 + 0.03 * (x + 0.1) / 0.25  # half of its width at x
+    assert middle_of_sole(sole, outward=1.0) == pytest.approx([x, outer * edge])
+    assert middle_of_sole(sole, outward=0.5) == pytest.approx([x, y + 0.5 * (outer * edge - y)])
+    contacts = FootContacts(ContactSettings(), {"left": sole, "right": sole}, outward=0.5)
+    assert contacts.center("left") == pytest.approx([x, y + 0.5 * (outer * edge - y)])
+
+
 def test_a_whole_sole_is_planned_to_be_loaded_where_a_weak_knee_can():
     knee = AnkleLimits(np.array([[1.0, 0.0, 0.3, 0.25, 0.1]]), 0.015)  # in front of 62 mm
     x, _ = middle_of_sole(SOLE, limits=knee)

@@ -23,7 +23,11 @@ def test_a_pendulum_that_is_carried_by_turns_stays_as_near_the_middle_as_it_shal
     robot = rocking(replace(load_robot("h1"), stance_width=width), height)
     assert robot.rocks
     step = robot.single_support + robot.double_support
-    omega, foot = math.sqrt(GRAVITY / height), 0.5 * width
+    outer = float(robot.layouts["left"].outline[:, 1].max())
+    carries = float(robot.middle_of_sole("left")[1])
+    assert 0.7 * outer < carries < outer
+    assert robot.middle_of_sole("right")[1] == pytest.approx(-carries)
+    omega, foot = math.sqrt(GRAVITY / height), 0.5 * width + carries
     # Integrated from the middle, with the speed from which it is there again after a step.
     y, speed, most = 0.0, foot * omega * math.tanh(0.5 * omega * step), 0.0
     dt = step / 20000
