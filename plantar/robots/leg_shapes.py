@@ -82,7 +82,7 @@ def _collide(geom: Any, side: Side) -> None:
 
 
 def keep_apart(model: Any, robot: Robot) -> None:
-    """Shrink the legs' shapes, except feet, until apart and off the ground in the robot's posture; disable failing ones.
+    """Shrink the legs' shapes, except feet, until apart and off the ground in the robot's posture, or disable them.
 
     Takes `model`.
     """

@@ -49,9 +49,7 @@ def rocking(robot: Robot, com_height: float) -> Robot:
     near = min(_NEAR, com_height * math.tan(LEAN_MOST) / aside)
     step = 2.0 * beat * math.acosh(1.0 / (1.0 - near))
     single = max(_SHORTEST, round(_SINGLE * step, 3))
-    return replace(
-        robot, single_support=single, double_support=round((1.0 - _SINGLE) / _SINGLE * single, 3)
-    )
+    return replace(robot, single_support=single, double_support=round((1.0 - _SINGLE) / _SINGLE * single, 3))
 
 
 def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:

@@ -95,9 +95,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         walk = Walk().for_body(self.body)
         height = com_height_of(walk, self.robot)
         feet = start_of_walk(walk, self.robot, height).feet
-        centers = {
-            s: vrp_of_step(feet[s], self.robot.middle_of_sole(s)) for s in SIDES
-        }
+        centers = {s: vrp_of_step(feet[s], self.robot.middle_of_sole(s)) for s in SIDES}
         stand(self.world, legs, LegServos(self.world, legs, self.period), feet, centers, height)
         self._start = self.data.qpos.copy(), self.data.ctrl.copy()
         self._height = float(self.data.xpos[self.world.torso, 2])
