@@ -47,3 +47,16 @@ def test_a_reversed_sole_that_moves_too_much_forward_is_named_by_what_both_make(
         trace[f"{order}_{side}"] = np.column_stack([part * lean + noise, trace[f"{order}_{side}"][:, 1]])
     causes = [finding.cause for finding in check_leaning_soles(trace)]
     assert causes == [f"taxel order of the {side} sole reversed"]
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_sole_that_moves_against_the_lean_passes_where_both_follow_it(side):
+    trace = leaned()
+    yaw = 0.02 * np.sin(2.0 * np.pi * 1.1 * trace["time"])  # moves the centers apart, each by more than the lean does
+    lean = trace["vrp"][:, 0]
+    signs = {"left": 1.0, "right": -1.0} if side == "right" else {"left": -1.0, "right": 1.0}
+    for s, sign in signs.items():
+        along = (1.0 + 1.4 * sign) * lean + sign * yaw
+        trace[f"center_{s}"] = np.column_stack([along, trace[f"center_{s}"][:, 1]])
+        trace[f"reversed_{s}"] = np.column_stack([-0.5 * along, trace[f"center_{s}"][:, 1]])
+    assert check_leaning_soles(trace) == []
