@@ -1,6 +1,7 @@
-"""The surface of one convex geom of a body: where lines cross it, what is inside, its flat faces."""
+"""The surface of each convex geom of a body: where lines cross it, what is inside, its flat faces."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import mujoco
@@ -152,6 +153,15 @@ class GeomSurface:
             return np.asarray(np.where((wide - self.size[0] > np.abs(p[:, 2]) - self.size[1])[:, None], side, cap))
         out = p / self.size**2 if self.kind == _KINDS.mjGEOM_ELLIPSOID else p - self._spine(p)
         return np.asarray(out / np.linalg.norm(out, axis=1)[:, None])
+
+
+def body_surfaces(model: Any, body: int, geoms: Sequence[int]) -> list[GeomSurface]:
+    """The surfaces of a `model`'s `geoms` in the frame of a `body`, all of them ids."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    place = data.xpos[body].copy()
+    turn = data.xmat[body].reshape(3, 3).copy()
+    return [GeomSurface(model, data, g, place, turn) for g in geoms]
 
 
 def _between(

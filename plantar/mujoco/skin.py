@@ -19,11 +19,13 @@ from plantar.layouts.layout_file import read_layout
 from plantar.layouts.source_pose import SourcePose
 from plantar.mujoco.bound_skin import BoundSkin
 from plantar.mujoco.contacts import REACH
+from plantar.mujoco.geom_surface import body_surfaces
 from plantar.mujoco.layer import ElasticLayer
+from plantar.mujoco.mirrored_body import left_body
 from plantar.mujoco.named_id import named_id
 from plantar.mujoco.quaternions import quaternion_of
 from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape, unit_vector
-from plantar.mujoco.wrapped_skin import WrappedSkin, body_surfaces, fitted_cell_area, flat_layout, wrapped_skin
+from plantar.mujoco.wrapped_skin import WrappedSkin, fitted_cell_area, flat_layout, wrapped_skin
 from plantar.sensing.taxel_faults import TaxelFaults
 
 _ACTIVE = 0.073  # of its robot's weight over its taxels: 0.15 kg of the papers' 86 kg over 42
@@ -32,6 +34,7 @@ _OUTSIDE = 0.1  # of a layout's cells: more than this beside the body's sole is 
 _COVERED = 0.3  # of the body's sole: a layout that covers less is too small to be of it
 _BETTER = 0.03  # of the sole: a layout that fits so much better turned or mirrored is so
 _LEVEL = math.cos(math.radians(3.0))
+_ALIKE = 1e-4  # m, or of a direction: soles of mirrored feet in one pose; other poses differ by more
 _NEAR = 0.004  # m: how far a site may be from the face
 
 
@@ -187,8 +190,10 @@ class Skin:
             return self._bind_patch(model)
         geoms, shape = self._place(model)
         body = named_id(model, "body", self.body)
-        layout = self.layout or self._fitted(model, body, shape)
-        if self.layout is not None:
+        if self.layout is None:
+            layout, shape = self._fitted(model, body, geoms, shape)
+        else:
+            layout = self.layout
             self._check(layout, shape)
         return BoundSkin(model, layout, body, geoms, shape.position, shape.rotation, **self._sensing())
 
@@ -330,14 +335,29 @@ class Skin:
             raise RobotError(f"site '{self.site}' is {1e3 * height:.0f} mm above the sole's face; allowed: on it")
         return _in_frame(shape, position, rotation)
 
-    def _fitted(self, model: Any, body: int, shape: SoleShape) -> SoleLayout:
+    def _fitted(self, model: Any, body: int, geoms: list[int], shape: SoleShape) -> tuple[SoleLayout, SoleShape]:
+        """Cells on a sole, and the sole: of a right foot the left one's, mirrored, if the feet are."""
+        left = left_body(model, body, body_surfaces(model, body, geoms)) if self.site is None else None
+        if left is not None:
+            out = None if self.outward is None else left.way @ unit_vector(self.outward, "outward")
+            ahead = None if self.forward is None else left.way @ unit_vector(self.forward, "forward")
+            its = sole_shape(model, left.body, left.geoms, out, ahead)
+            seen = its._replace(
+                position=left.way.T @ its.position,
+                rotation=left.way.T @ its.rotation * np.array([1.0, -1.0, 1.0]),
+                outline=(its.outline * np.array([1.0, -1.0]))[::-1],
+                side=shape.side,
+            )
+            off = max(np.abs(seen.position - shape.position).max(), np.abs(seen.rotation - shape.rotation).max())
+            if off < _ALIKE:
+                shape = seen
         import shapely
 
         area = self.cell_area
         if area is None:
             area = fitted_cell_area(shapely.Polygon(shape.outline).area)
         side = _side_in(self.body) or shape.side
-        return flat_layout(self.body, side, shape.outline, area, _active(model, body))
+        return flat_layout(self.body, side, shape.outline, area, _active(model, body)), shape
 
     def _check(self, layout: SoleLayout, shape: SoleShape) -> None:
         import shapely

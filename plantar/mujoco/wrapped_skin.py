@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.common.arrays import array
-from plantar.common.sides import Side
+from plantar.common.sides import Side, other_side
 from plantar.errors import RobotError
 from plantar.layouts.layout import DEFAULT_THRESHOLDS, SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
-from plantar.mujoco.geom_surface import GeomSurface
+from plantar.mujoco.geom_surface import GeomSurface, body_surfaces
+from plantar.mujoco.mirrored_body import LeftBody, left_body
 from plantar.mujoco.sole_shape import axes_facing, unit_vector
 from plantar.mujoco.surface_patch import Region, Samples, SurfaceCells, refuse_strip, sampled, spread_cells, width_of
 from plantar.sensing.link_skin import SkinPatch
@@ -40,15 +41,6 @@ class WrappedSkin(NamedTuple):
     kernel: tuple[Any, ...]
 
 
-def body_surfaces(model: Any, body: int, geoms: Sequence[int]) -> list[GeomSurface]:
-    """The surfaces of a `model`'s `geoms` in the frame of a `body`, all of them ids."""
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    place = data.xpos[body].copy()
-    turn = data.xmat[body].reshape(3, 3).copy()
-    return [GeomSurface(model, data, g, place, turn) for g in geoms]
-
-
 def wrapped_skin(
     model: Any,
     body: int,
@@ -68,10 +60,10 @@ def wrapped_skin(
 
     `least_level`: force in N of all taxels from which they are active. RobotError: nothing there, or a strip.
     """
-    name = model.body(body).name
     surfaces = body_surfaces(model, body, geoms)
     out = None if outward is None else unit_vector(outward, "outward")
-    rotation = _axes(out, forward)
+    ahead = None if forward is None else unit_vector(forward, "forward")
+    rotation = _axes(out, ahead)
     chosen = Region(
         out,
         math.radians(within),
@@ -80,6 +72,41 @@ def wrapped_skin(
         _drawn(polygon),
         np.ascontiguousarray(rotation[:, :2].T),
     )
+    laid = None
+    left = left_body(model, body, surfaces)
+    if left is not None:
+        try:
+            laid = _brought(model, body, left, chosen, rotation, ahead, side, cell_area, least_level)
+        except RobotError:  # its line would be of the left body
+            laid = None
+    if laid is None:
+        laid = _laid(model, body, surfaces, chosen, rotation, side, cell_area, least_level)
+    kernel = _kernel(model, geoms, surfaces, laid.layout, laid.radius, chosen, laid.position, rotation)
+    return WrappedSkin(laid.layout, laid.position, rotation, laid.rings, kernel)
+
+
+class _Laid(NamedTuple):
+    """Cells in the patch's frame, its place (3,) in the body's, corners of each, and how far a contact reaches."""
+
+    layout: SoleLayout | SkinPatch
+    position: NDArray[np.float64]
+    rings: list[NDArray[np.float64]]
+    radius: float
+
+
+def _laid(
+    model: Any,
+    body: int,
+    surfaces: list[GeomSurface],
+    chosen: Region,
+    rotation: NDArray[np.float64],
+    side: Side | None,
+    cell_area: float | None,
+    least_level: float,
+) -> _Laid:
+    """Lay cells on the chosen part of a body's own surfaces."""
+    out = chosen.outward
+    name = model.body(body).name
     where = f"the skin of body '{name}'"
     own_side = side or _side_of(model, body)
     is_right = own_side == "right"
@@ -106,25 +133,75 @@ def wrapped_skin(
         if out is not None:
             position = float((cells.positions @ out).max()) * out
         layout, rings = _curved_layout(name, own_side, cells, position, rotation, least_level)
-        radius = cells.radius
+        return _Laid(layout, position, rings, cells.radius)
+    outline, height = flat
+    refuse_strip(*_long_and_thin(outline), width_of(area), where)
+    level = flat_layout(name, own_side, outline, area, least_level)
+    rings = [np.column_stack([level.cell_polygon(i), np.zeros(len(level.corners[i]))]) for i in range(len(level))]
+    return _Laid(level, height * np.asarray(out), rings, 1.25 * width_of(level.cell_area))
+
+
+def _brought(
+    model: Any,
+    body: int,
+    left: LeftBody,
+    chosen: Region,
+    rotation: NDArray[np.float64],
+    ahead: NDArray[np.float64] | None,
+    side: Side | None,
+    cell_area: float | None,
+    least_level: float,
+) -> _Laid:
+    """The cells that the left body has on the mirrored part of its surfaces, mirrored; arguments of the right body."""
+    way = left.way
+    out = None if chosen.outward is None else way @ chosen.outward
+    its_rotation = _axes(out, None if ahead is None else way @ ahead)
+    turn = rotation.T @ way.T @ its_rotation  # from its patch's frame to this one's
+    ends = _mirrored_box(chosen.low, chosen.high, way)
+    region = Region(
+        out,
+        chosen.within,
+        None if chosen.axis is None else way @ chosen.axis,
+        *ends,
+        np.ascontiguousarray(chosen.outline @ turn[:2, :2]),
+        np.ascontiguousarray(its_rotation[:, :2].T),
+    )
+    its_side = None if side is None else other_side(side)
+    laid = _laid(model, left.body, left.surfaces, region, its_rotation, its_side, cell_area, least_level)
+    name = model.body(body).name
+    layout = laid.layout
+    places = layout.positions @ turn.T
+    turns = _frames(layout.rotations[:, :, 2] @ turn.T)
+    if isinstance(layout, SoleLayout):
+        layout = replace(
+            layout,
+            name=name,
+            side=other_side(layout.side),
+            positions=places,
+            rotations=turns,
+            vertices=layout.vertices @ turn.T,
+            corners=tuple((c[0], *reversed(c[1:])) for c in layout.corners),
+            outline=(layout.outline @ turn[:2, :2].T)[::-1],
+        )
     else:
-        outline, height = flat
-        position = height * np.asarray(out)
-        refuse_strip(*_long_and_thin(outline), width_of(area), where)
-        layout = flat_layout(name, own_side, outline, area, least_level)
-        rings = [
-            np.column_stack([layout.cell_polygon(i), np.zeros(len(layout.corners[i]))]) for i in range(len(layout))
-        ]
-        radius = 1.25 * width_of(layout.cell_area)
-    kernel = _kernel(model, geoms, surfaces, layout, radius, chosen, position, rotation)
-    return WrappedSkin(layout, position, rotation, rings, kernel)
+        layout = replace(layout, name=name, link=name, positions=places, rotations=turns)
+    return _Laid(layout, way.T @ laid.position, [(ring @ turn.T)[::-1] for ring in laid.rings], laid.radius)
 
 
-def _axes(out: NDArray[np.float64] | None, forward: ArrayLike | None) -> NDArray[np.float64]:
+def _mirrored_box(
+    low: NDArray[np.float64], high: NDArray[np.float64], way: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Corners of a box, of which some may be infinite, in a frame whose axes are others of its own."""
+    axes = np.abs(way).argmax(axis=1)
+    along = way[range(3), axes] > 0.0
+    return np.where(along, low[axes], -high[axes]), np.where(along, high[axes], -low[axes])
+
+
+def _axes(out: NDArray[np.float64] | None, forward: NDArray[np.float64] | None) -> NDArray[np.float64]:
     """Rotation (3, 3) from patch to body: the body's axes, or z against `out` and x along the body's x."""
     if out is None:
         return np.eye(3)
-    ahead = np.array([1.0, 0.0, 0.0]) if forward is None else unit_vector(forward, "forward")
+    ahead = np.array([1.0, 0.0, 0.0]) if forward is None else forward
     if abs(ahead @ out) > 0.95:
         if forward is not None:
             raise RobotError("the patch faces the way that is given as forward; give forward=(x, y, z) along it")

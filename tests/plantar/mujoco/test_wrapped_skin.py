@@ -294,9 +294,52 @@ def test_mirrored_feet_have_mirrored_soles():
     )
     one, two = (Skin(body=f"{name}_foot").bind(model).patch for name in ("left", "right"))
     assert len(one) == len(two)
-    # The nanometre that outlines are rounded to, and the float32 of meshes.
-    assert np.abs(np.sort(one.positions[:, 0]) - np.sort(two.positions[:, 0])).max() < 3e-8
-    assert np.abs(one.positions * [1, -1, 1] - two.positions).max() < 3e-8
+    assert np.abs(one.positions * [1, -1, 1] - two.positions).max() < 1e-12
+
+
+TURNS = {"x": [-1, 1, 1], "z": [1, 1, -1], "all": [-1, -1, -1]}
+
+
+@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize("axes", [(0, 1, 2), (2, 0, 1)])
+def test_a_body_mirrored_in_other_axes_has_mirrored_cells(axes, turn):
+    """Frames of a right hand may be turned, and its mesh rounded elsewhere."""
+    rng = np.random.default_rng(7)
+    way = np.diag(np.array(TURNS[turn], dtype=float))[:, axes]
+    if np.linalg.det(way) > 0.0:
+        way[:, 0] *= -1.0
+    points = rng.normal(size=(20, 3)) * [0.03, 0.02, 0.05]
+    others = points @ way + 1e-7 * rng.normal(size=points.shape)
+
+    def hand(name, corners):
+        mesh = f'<mesh name="{name}" vertex="{" ".join(f"{c:.17g}" for p in corners for c in p)}"/>'
+        return mesh, f'<body name="{name}"><joint/><geom type="mesh" mesh="{name}"/></body>'
+
+    meshes, bodies = zip(hand("left_hand", points), hand("right_hand", others[::-1]), strict=True)
+    text = f"<mujoco><asset>{''.join(meshes)}</asset><worldbody>{''.join(bodies)}</worldbody></mujoco>"
+    model = mujoco.MjModel.from_xml_string(text)
+    half = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]])
+    ends = np.sort(half @ way, axis=0)
+    pairs = [
+        ({"outward": (1, 0.5, 0.2)}, {"outward": np.array([1, 0.5, 0.2]) @ way}),
+        ({"around": (0, 0, 1)}, {"around": np.array([0, 0, 1]) @ way}),
+        ({"region": half}, {"region": ends}),
+    ]
+    for left, right in pairs:
+        one, two = Skin(body="left_hand", **left).bind(model), Skin(body="right_hand", **right).bind(model)
+        assert np.abs(one.patch.positions @ way - two.patch.positions).max() < 1e-12
+        assert np.abs(one.patch.rotations[:, :, 2] @ way - two.patch.rotations[:, :, 2]).max() < 1e-12
+        assert np.array_equal(one.patch.areas, two.patch.areas)
+        assert two.layout.name == "right_hand"
+
+
+def test_a_right_body_that_is_not_the_left_one_mirrored_has_cells_of_its_own():
+    bodies = "".join(
+        f'<body name="{name}"><joint/><geom type="box" size=".05 .02 {z}"/></body>'
+        for name, z in (("left_hand", 0.03), ("right_hand", 0.0301))
+    )
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    assert Skin(body="right_hand", outward=(0, 0, 1)).bind(model).position_in_body[2] == pytest.approx(0.0301)
 
 
 @pytest.mark.parametrize("yaw", [0, 30, -30])
