@@ -137,7 +137,8 @@ class Sheet:
                 axes.plot(*np.vstack(own).T, color=colour, lw=width * points, ls=dashes)
         for at, text, height, turn, align in self.texts:
             style: dict[str, Any] = {"rotation": turn, "ha": align, "va": "bottom" if turn == 0.0 else "center"}
-            axes.text(*at, text, fontsize=1.25 * height * points, **style)
+            # Texts of axes are given a path to be cut along, which a sheet's never are.
+            figure.text(*at, text, fontsize=1.25 * height * points, transform=axes.transData, **style)
         return figure
 
 
