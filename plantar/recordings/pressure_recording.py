@@ -98,15 +98,21 @@ class FootRecording:
         """
         if self.total is not None:
             return self.total
-        rise = np.ones(self.force.shape[1]) if self.layout is None else self.layout.rotations[:, 2, 2]
-        total = _product(self.measured, rise)
+        total = self._carried
         if self.missing is not None:
+            total = total.copy()
             dead = self.missing.all(axis=0)
             lacking = self.missing[:, ~dead].sum(axis=1)
             total[lacking > 0.1 * max(1, int((~dead).sum()))] = np.nan
             if dead.all():
                 total[:] = np.nan
         return total
+
+    @cached_property
+    def _carried(self) -> NDArray[np.float64]:
+        """Vertical force (n,) in N of all cells that measured."""
+        rise = np.ones(self.force.shape[1]) if self.layout is None else self.layout.rotations[:, 2, 2]
+        return _product(self.measured, rise)
 
     def pressure(self) -> NDArray[np.float64] | None:
         """Pressure (n, k) in Pa, NaN if unmeasured; None without cell areas."""
@@ -124,11 +130,11 @@ class FootRecording:
         if self.layout is None:
             return None
         normal = self.layout.rotations[:, 2, 2]
-        # With the force itself as a third column its sum is that of the cells, not the device's.
-        sums = _product(self.measured, np.column_stack([self.layout.positions[:, :2] * normal[:, None], normal]))
-        out = np.full((len(sums), 2), np.nan)
-        loaded &= sums[:, 2] > 0.0
-        out[loaded] = sums[loaded, :2] / sums[loaded, 2:]
+        moments = _product(self.measured, self.layout.positions[:, :2] * normal[:, None])
+        carried = self._carried  # by the cells, not the device's force
+        out = np.full((len(moments), 2), np.nan)
+        loaded &= carried > 0.0
+        out[loaded] = moments[loaded] / carried[loaded, None]
         return out
 
 
