@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +14,15 @@ from plantar.gait.plan.walk_plan import PlanView
 from plantar.layouts.layout import Side
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
-from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.figures.drawn_run import DrawnRun
 from plantar.sim.model.contact_truth import GroundTruth
 from plantar.sim.model.world import World
 from plantar.sim.partner.guide import Guide
 from plantar.sim.partner.mobile_robot import MobileRobot
 from plantar.sim.partner.touch import Touch
+
+if TYPE_CHECKING:
+    from plantar.sim.arms.compliant_arm import CompliantArm
 
 MOST_VERTICES = 24
 """Vertices of a recorded support polygon; of a rounder one those are left out that change its area least."""
@@ -41,7 +43,7 @@ class RunLog(ExitStack):
         *,
         zmps: bool = False,
         touch: Touch | None = None,
-        arm: CompliantArm | None = None,
+        arm: "CompliantArm | None" = None,
     ) -> None:
         super().__init__()
         k = len(world.servos)

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -21,7 +21,6 @@ from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.robots.kinematics.robot_model import Visitor
 from plantar.sensing.link_skin import BodySkin
-from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.figures.film import Film
 from plantar.sim.figures.run_figure import plot_run
 from plantar.sim.loop import Progress, Result, Run
@@ -39,6 +38,9 @@ from plantar.sim.run.standing import stand
 from plantar.sim.run.touched import Touched
 from plantar.sim.run.walker import walker_of
 from plantar.sim.sensing.sensors import SensorSuite
+
+if TYPE_CHECKING:
+    from plantar.sim.arms.compliant_arm import CompliantArm
 
 _MEMBERS = frozenset(Percept.members())
 
@@ -169,9 +171,11 @@ class Simulation(Run):
             return LegServos(self.world, self.legs, self.settings.period, self.plant)
         return MotorDrives(self.world, self.motors, self.plant)
 
-    def _moving_arm(self, skin: BodySkin | None) -> CompliantArm | None:
+    def _moving_arm(self, skin: BodySkin | None) -> "CompliantArm | None":
         if self.worn is None:
             return None
+        from plantar.sim.arms.compliant_arm import CompliantArm  # and whole-body control, a quarter of all imports
+
         noise = self.scene.sensing.encoder_noise
         arm = CompliantArm(self.worn, skin, self.scene.arm, self.world, self.settings.period, noise, self.seed)
         self.legs.hold_others(arm.posture)

@@ -6,7 +6,7 @@ and those within REACH belong to the patch.
 
 from collections import deque
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +24,13 @@ from plantar.sensing.reading import Reading
 from plantar.sim.model.contact_truth import REACH, ContactReader, FootContacts
 from plantar.sim.plant.taxels import TaxelErrors
 from plantar.sim.sensing.blind_rim import BlindRim
-from plantar.sim.sensing.elastic_pressure import ElasticPressure
 from plantar.sim.sensing.proximity import ProximitySensor
 from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.sole_pressure import SolePressure
 from plantar.sim.sensing.white_noise import white_noise
+
+if TYPE_CHECKING:
+    from plantar.sim.sensing.elastic_pressure import ElasticPressure
 
 
 class SoleSkin:
@@ -56,11 +58,7 @@ class SoleSkin:
         self.geom_ids = frozenset(named_id(model, "geom", g) for g in geoms)
         if not self.geom_ids:
             raise RobotError("the sole has no collision geom; name at least one")
-        self.pressure: SolePressure | ElasticPressure = (
-            SolePressure(layout, rubber=rubber)
-            if layer is None
-            else ElasticPressure(layout, thickness=layer, rubber=rubber)
-        )
+        self.pressure = _pressure_of(layout, rubber, layer)
         self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
         springs = self.pressure.springs if isinstance(self.pressure, SolePressure) else None
         self.springs: PressedSole | None = None if self._rim is not None else springs
@@ -115,6 +113,14 @@ class SoleSkin:
             self._reader = ContactReader(self.model, data, (self.geom_ids,))
             self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
         return self._reader.read()[0] if contacts is None else contacts
+
+
+def _pressure_of(layout: SoleLayout, rubber: float, layer: float | None) -> "SolePressure | ElasticPressure":
+    if layer is None:
+        return SolePressure(layout, rubber=rubber)
+    from plantar.sim.sensing.elastic_pressure import ElasticPressure  # and scipy.linalg, 0.2 s
+
+    return ElasticPressure(layout, thickness=layer, rubber=rubber)
 
 
 class SkinSensor:
