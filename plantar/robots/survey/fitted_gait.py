@@ -1,8 +1,9 @@
 """A walk that fits a robot: posture, stance, pace and gains."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -64,7 +65,8 @@ class FittedGait:
     """A robot with numbers that fit, and their reasons.
 
     `inertia`: about the joints of a leg; `reach`: demands of level steps of a third of a leg; `notes`: what was not met
-    or was assumed; `rotors`: additional rotor inertia in kg m^2 about each leg joint of the model's copy.
+    or was assumed; `rotors`: additional rotor inertia in kg m^2 about each leg joint of the model's copy; `known`: what
+    was found for its legs, see `LegModel`.
     """
 
     def __init__(
@@ -75,6 +77,7 @@ class FittedGait:
         reach: PlanReach,
         notes: list[str],
         rotors: Array,
+        known: Mapping[tuple[Hashable, ...], Any],
     ) -> None:
         self.robot = robot
         self.body = body
@@ -82,6 +85,7 @@ class FittedGait:
         self.reach = reach
         self.notes = tuple(notes)
         self.rotors = rotors
+        self.known = known
 
 
 def fit_gait(
@@ -89,14 +93,17 @@ def fit_gait(
     gains: Sequence[tuple[float, float]] = (),
     rotors: Array | None = None,
     wishes: Wishes = NO_WISHES,
+    known: Mapping[tuple[Hashable, ...], Any] = MappingProxyType({}),
 ) -> FittedGait:
     """Fit a walk to a robot of known names, soles and limits.
 
     `draft`: the robot; its posture, gait and gains are replaced; `gains`: the model's stiffness in N m/rad and damping
     in N m s/rad of each leg joint, or empty; `rotors`: assumed rotor inertia in kg m^2 about each leg joint, or None;
-    `wishes`: their height and stance are taken as they are.
+    `wishes`: their height and stance are taken as they are; `known`: of an earlier fit, whose legs differ in rotors
+    alone: how they move does not depend on these.
     """
     legs = build_leg_model(draft)
+    legs.known.update(known)
     robot = replace(draft, posture=bent_posture(draft, legs))
     body = body_of(robot, legs.model)
     notes: list[str] = []
@@ -148,7 +155,7 @@ def fit_gait(
             f"the model states no rotor inertia, and {', '.join(light)} would be too light for a stiff servo: up to "
             f"{assumed.max():.2g} kg m^2 is assumed as armature in model.xml, put the motors' there"
         )
-    return FittedGait(robot, body, inertia, reach, notes, assumed)
+    return FittedGait(robot, body, inertia, reach, notes, assumed, dict(legs.known))
 
 
 def _narrowed(robot: Robot, legs: LegModel, body: BodyScale) -> Robot:

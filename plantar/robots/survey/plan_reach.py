@@ -145,11 +145,7 @@ def plan_reach(
     if not bears(found.missed, found.knee, found.spare):
         return found.broken_off()
     found.set_out(robot)
-    for time in np.arange(_BEGIN, found.plan.schedule.walking_end + found.every, found.every).tolist():
-        found.look(time)
-        if not (found.missed < _HOPELESS and bears(found.missed, found.knee, found.spare)):
-            return found.broken_off()
-    return found.result()
+    return found.result() if found.go_through(bears) else found.broken_off()
 
 
 class _Held(NamedTuple):
@@ -189,6 +185,30 @@ class _Pass:
         self.plan = WalkPlan(walked.feet, walked.steps, walked.timing, self.middles, frequency, begin=_BEGIN)
         self.momentum = LegMomentum(self.plan, frequency, self.inertia, _ARRIVES)
         settled(robot, self.legs, walked.feet, walked.com_height)  # the legs moved to find their inertia
+
+    def go_through(self, bears: Callable[[float, float, Array], bool]) -> bool:
+        """Look at each instant; returns whether the walk goes on to its end. Known legs are not moved again."""
+        walked = self.walked
+        key = (
+            *("walked", *walked.feet.items(), *walked.steps, walked.timing, walked.swing_height, walked.com_height),
+            *(walked.lean, walked.approach_height, walked.approach_speed, self.inertia, bears),
+            *(values.tobytes() for values in (self.legs.configuration, *self.middles.values())),
+        )
+        if key not in self.legs.known:
+            ends = self._looked(bears)
+            own = (self.missed, self.knee, self.straightest, self.spare, self.roll, self.seen)
+            self.legs.known[key] = (ends, *own, self.legs.configuration)
+        ends, *own, configuration = self.legs.known[key]
+        self.missed, self.knee, self.straightest, self.spare, self.roll, self.seen = own
+        self.legs.restore(configuration)
+        return bool(ends)
+
+    def _looked(self, bears: Callable[[float, float, Array], bool]) -> bool:
+        for time in np.arange(_BEGIN, self.plan.schedule.walking_end + self.every, self.every).tolist():
+            self.look(time)
+            if not (self.missed < _HOPELESS and bears(self.missed, self.knee, self.spare)):
+                return False
+        return True
 
     def look(self, time: float) -> None:
         walked = self.walked

@@ -218,7 +218,7 @@ def _fitted(draft: Robot, gains: Sequence[tuple[float, float]], wishes: Wishes) 
         return fitted
     joints = [(name, float(v)) for s in SIDES for name, v in zip(draft.legs[s].joints, assumed, strict=True)]
     add_rotors(draft.model_file, {name: value for name, value in joints if value > 0.0})
-    return fit_gait(draft, gains, assumed, wishes)
+    return fit_gait(draft, gains, assumed, wishes, fitted.known)
 
 
 def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from plantar.common.settings.body_scale import BodyScale
@@ -65,6 +66,20 @@ def test_a_height_and_a_stance_that_are_stated_are_kept():
     assert (found.com_height, found.stance_width) == (0.78, 0.2)
     with pytest.raises(RobotError, match=r"no height of its CoM, .* nearest is a CoM at 1.200 m"):
         fit_gait(h1, wishes=Wishes(height=1.2))
+
+
+def test_a_fit_with_what_is_known_of_the_legs_is_the_same(monkeypatch):
+    h1 = load_robot("h1")
+    wishes = Wishes(height=0.78, stance=0.2)
+    first = fit_gait(h1, wishes=wishes)
+    rotors = np.full(6, 0.02)
+    alone = fit_gait(h1, (), rotors, wishes)
+    monkeypatch.setattr("plantar.robots.survey.plan_reach._Pass.look", None)  # not looked at again
+    again = fit_gait(h1, (), rotors, wishes, first.known)
+    assert again.robot == alone.robot
+    assert again.notes == alone.notes
+    for name in ("torque", "speed", "spare"):
+        assert getattr(again.reach, name).tolist() == getattr(alone.reach, name).tolist()
 
 
 @pytest.mark.long
