@@ -74,8 +74,7 @@ class TaxelCheck:
             if not UP[0] < share < UP[1] or carried < _CARRIED * weight:
                 swing = None
         load = soles.left + soles.right
-        pulls = soles.least < -AIR * weight
-        looks = swing is not None or load > _HEAVY * weight or pulls
+        looks = swing is not None or load > _HEAVY * weight or soles.left_pulls >= 0 or soles.right_pulls >= 0
         if not looks and not self._looked and not self.count:  # there is nothing to look at, nor to end
             return readings
         self._looked = looks
@@ -84,8 +83,8 @@ class TaxelCheck:
             spare = load - _REST * weight
         left = self._watches["left"]
         right = self._watches["right"]
-        changed = left.update(readings["left"].force, spare, swing == "left", pulls)
-        changed |= right.update(readings["right"].force, spare, swing == "right", pulls)
+        changed = left.update(readings["left"].force, spare, swing == "left", soles.left_pulls)
+        changed |= right.update(readings["right"].force, spare, swing == "right", soles.right_pulls)
         if changed:
             self.count = left.count + right.count
             self._name(readings)

@@ -38,9 +38,9 @@ cdef class BodyCheck:
 @cython.final
 cdef class SoleCheck:
     cdef double weight, carried, most
-    cdef readonly double left, right, least
-    cdef readonly int left_same, right_same, dead, left_stuck, right_stuck
-    cdef int frozen, stuck, fresh
+    cdef readonly double left, right
+    cdef readonly int left_same, right_same, dead, left_stuck, right_stuck, left_pulls, right_pulls
+    cdef int frozen, stuck, pulls, fresh
     cdef double left_readings, right_readings
     cdef object left_kept, right_kept
     cdef bint steady
@@ -50,7 +50,10 @@ cdef class SoleCheck:
     cpdef void skip(self) noexcept
     @cython.locals(new_left=double, new_right=double, old_left=double, old_right=double, near=double, anew=bint)
     cpdef int update(self, left, int left_count, right, int right_count) except -2
-    @cython.locals(i=int, total=double, value=double, loaded=int, changed=int, stuck=int, which=int)
+    @cython.locals(
+        i=int, total=double, value=double, loaded=int, changed=int, stuck=int, which=int, pulling=int, lowest=int,
+        least=double
+    )
     cdef double _total(self, double* force, int count, double* kept, double readings) noexcept
 
 @cython.final

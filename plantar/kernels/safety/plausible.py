@@ -19,7 +19,7 @@ _TURNED = 12.0
 # hits the ground
 _SPIN = 20.0
 _SHOCK = 400.0  # m/s^2; chosen: 40 g; IMUs of robots end at 16 or 30 g
-_FEW = 10  # chosen: one taxel of so many may repeat itself; where more do, they are at the end of their range
+_FEW = 10  # chosen: one taxel of so many has a fault of its own; where more repeat, they are at the end of their range
 
 
 def are_finite(joints, gyro, accelerometer):
@@ -177,13 +177,15 @@ class SoleCheck:
     """Plausibility of forces on the soles of a robot of a weight in N, tick by tick.
 
     A taxel repeats itself that reports the same bits of a load while half of its sole's loaded taxels, or more, report
-    others, in so many readings as `frozen`: coarse steps, in which all repeat themselves, show nothing.
+    others, in so many readings as `frozen`: coarse steps, in which all repeat themselves, show nothing. One pulls that
+    reports less than nothing by more than its zero can be off. Where more than a tenth of a sole's taxels do, it is no
+    single taxel's fault.
 
     `carried`: force in N on both that a robot on its feet does not lack; `most`: force in N up to which a taxel may
-    repeat itself; `dead`: taxels of both without a number; `left`: force in N on left sole, of taxels that report one;
-    `right` likewise; `left_same`: ticks without a change of `left`; `right_same` likewise; `swapped`: whether soles
-    have exchanged their reports; `least`: smallest force in N of a taxel, 0 where none is negative; `left_stuck`: a
-    taxel that repeats itself, -1 for none; `right_stuck` likewise.
+    repeat itself, or pull; `dead`: taxels of both without a number; `left`: force in N on left sole, of taxels that
+    report one; `right` likewise; `left_same`: ticks without a change of `left`; `right_same` likewise; `swapped`:
+    whether soles have exchanged their reports; `left_stuck`: a taxel that repeats itself, -1 for none; `left_pulls`:
+    the one that pulls most; `right_stuck` and `right_pulls` likewise.
     """
 
     def __init__(self, weight, carried=0.0, most=0.0, frozen=24):
@@ -196,7 +198,8 @@ class SoleCheck:
         self.left_same = 0
         self.right_same = 0
         self.dead = 0
-        self.least = 0.0
+        self.left_pulls = -1
+        self.right_pulls = -1
         self.left_stuck = -1
         self.right_stuck = -1
         self.left_readings = 0
@@ -204,6 +207,7 @@ class SoleCheck:
         self.left_kept = np.zeros(0)
         self.right_kept = np.zeros(0)
         self.stuck = -1
+        self.pulls = -1
         self.fresh = 0
         self.steady = False
         self.swapped = False
@@ -228,15 +232,16 @@ class SoleCheck:
         Returns 1 where the soles are wired right, both report anew and they carry the robot, else 0.
         """
         self.dead = 0
-        self.least = 0.0
         if len(self.left_kept) != 2 * left_count or len(self.right_kept) != 2 * right_count:
             self.left_kept = np.zeros(2 * left_count)
             self.right_kept = np.zeros(2 * right_count)
         new_left = self._total(memory.values(left), left_count, memory.room(self.left_kept), self.left_readings)
         self.left_stuck = self.stuck
+        self.left_pulls = self.pulls
         self.left_readings += self.fresh
         new_right = self._total(memory.values(right), right_count, memory.room(self.right_kept), self.right_readings)
         self.right_stuck = self.stuck
+        self.right_pulls = self.pulls
         self.right_readings += self.fresh
         if self.swapped:
             new_left, new_right = new_right, new_left
@@ -273,12 +278,18 @@ class SoleCheck:
         changed = 0
         stuck = 0
         which = -1
+        pulling = 0
+        lowest = -1
+        least = -self.most
         for i in range(count):
             value = force[i]
             if value == value:
                 total += value
-                if value < self.least:
-                    self.least = value
+                if value < -self.most:
+                    pulling += 1
+                    if value <= least:
+                        least = value
+                        lowest = i
                 if value > 0.0:
                     loaded += 1
                 if value != kept[i]:
@@ -293,6 +304,7 @@ class SoleCheck:
                 self.dead += 1
         self.fresh = 1 if 2 * changed > loaded else 0
         self.stuck = which if stuck * _FEW <= max(count, _FEW) else -1
+        self.pulls = lowest if pulling * _FEW <= max(count, _FEW) else -1
         return total
 
 

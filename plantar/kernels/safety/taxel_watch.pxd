@@ -12,13 +12,12 @@ cdef class TaxelWatch:
     cdef readonly int count
     cdef bint was_up, begun
     @cython.locals(changed=bint)
-    cpdef bint update(self, force, double spare, bint up, bint pulls) except *
+    cpdef bint update(self, force, double spare, bint up, int pulls) except *
     @cython.locals(i=int)
     cdef void _begin(self, int n) except *
     @cython.locals(changed=bint, i=int, j=int, k=int, value=double, largest=double)
     cdef bint _compare(self, double* f, int n, double spare) except *
-    @cython.locals(changed=bint, i=int, below=int)
-    cdef bint _pull(self, double* f, int n) except *
+    cdef bint _pull(self, int i) except *
     @cython.locals(changed=bint, i=int, loaded=int)
     cdef bint _fly(self, double* f, int n) except *
     @cython.locals(changed=bint, i=int)

@@ -15,7 +15,7 @@ class TaxelWatch:
     A taxel is left out that, while both soles report more than the robot weighs, reads a multiple of each of its
     neighbours for some ticks, and without which they still report its weight; and one that reads a load while its foot
     is in the air, where few of its sole do, until a swing in which it does not. So is one that pulls, in the air or
-    not, where few of its sole do.
+    not.
 
     Args:
         starts: Where each taxel's neighbours begin in `neighbours`, and where the last one's end (n + 1,), as numbers.
@@ -55,7 +55,7 @@ class TaxelWatch:
         """Take a tick's forces (n,) in N.
 
         `spare`: force in N on both soles that the robot need not weigh, 0 where they do not report too much; `up`: the
-        foot is in the air; `pulls`: some taxel of either sole pulls.
+        foot is in the air; `pulls`: a taxel that pulled a tick ago, -1 for none.
 
         Returns whether other taxels are left out than before.
         """
@@ -69,8 +69,8 @@ class TaxelWatch:
         elif self.was_up:
             changed = self._land(n)
         self.was_up = up
-        if pulls:
-            changed |= self._pull(f, n)
+        if 0 <= pulls < n:
+            changed |= self._pull(pulls)
         if spare > 0.0:
             changed |= self._compare(f, n, spare)
         elif self.begun:
@@ -110,25 +110,16 @@ class TaxelWatch:
                 changed = True
         return changed
 
-    def _pull(self, f, n):
-        """Leave out what reads less than nothing by more than its zero can be off."""
+    def _pull(self, i):
+        """Leave out a taxel that pulls again and again."""
         out = memory.room(self.out)
         pulled = memory.room(self.pulled)
-        below = 0
-        for i in range(n):
-            if f[i] < -self.air:
-                below += 1
-        if below == 0 or below > self.few:
+        pulled[i] += 1.0
+        if out[i] != 0.0 or pulled[i] < self.ticks:
             return False
-        changed = False
-        for i in range(n):
-            if f[i] < -self.air:
-                pulled[i] += 1.0
-                if out[i] == 0.0 and pulled[i] >= self.ticks:
-                    out[i] = 1.0
-                    self.count += 1
-                    changed = True
-        return changed
+        out[i] = 1.0
+        self.count += 1
+        return True
 
     def _fly(self, f, n):
         """Leave out what reads a load in the air again and again."""

@@ -117,12 +117,17 @@ def test_a_taxel_that_repeats_itself_while_the_others_change(form):
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_the_least_force_of_a_taxel(form):
-    check = form.SoleCheck(800.0, 240.0)
-    check.look(np.array([300.0, -20.0]), 2, np.array([300.0, np.nan]), 2)
-    assert check.least == -20.0
-    check.look(np.array([300.0, 0.0]), 2, np.array([300.0, 4.0]), 2)
-    assert check.least == 0.0
+def test_the_taxel_that_pulls_most(form):
+    check = form.SoleCheck(800.0, 240.0, 16.0)
+
+    def pulls(right):
+        check.look(np.full(20, 20.0), 20, np.append(right, np.full(20 - len(right), 20.0)), 20)
+        return check.left_pulls, check.right_pulls
+
+    assert pulls([0.0, -15.9]) == (-1, -1)
+    assert pulls([0.0, -17.0, np.nan, -18.0]) == (-1, 3)
+    assert pulls([-40.0, -17.0, -18.0]) == (-1, -1)  # the sole's zero is off
+    assert pulls([]) == (-1, -1)
 
 
 @pytest.mark.parametrize("form", FORMS)
