@@ -235,6 +235,21 @@ def test_sliding_there_is_no_walk() -> None:
     assert "steps" in criteria(summary)
 
 
+def test_standing_on_its_knees_is_no_walk() -> None:
+    """Legs that fold under the robot."""
+    simulation = Simulation(load_scene("flat", SHORT))
+    step = simulation.controller.step
+    model = simulation.world.model
+    names = [model.joint(int(model.actuator_trnid[k, 0])).name for k in simulation.world.servos]
+    folded = np.array([2.6 * ("knee" in name) - 1.3 * ("hip_pitch" in name) for name in names])
+
+    def kneeling(sensors: Sensors) -> Command:
+        return step(sensors).changed(joint_offsets=min(1.0, max(0.0, sensors.time - 1.0)) * folded)
+
+    simulation.controller.step = kneeling  # type: ignore[method-assign]
+    assert {"fall", "steps"} <= criteria(simulation.run())
+
+
 class _Other(WalkingController):
     """A controller that walks another plan, and says what it likes of it."""
 

@@ -312,6 +312,18 @@ def replace_length(task):
     return dataclasses.replace(task, walk={**task.walk, "length": 0.12})
 
 
+def test_a_policy_that_steps_over_every_other_stone_is_refused():
+    """Two steps in one: its feet are elsewhere, and the stones between carry nothing."""
+    trial = next(t for t in TRIALS if (t.kind, t.value) == ("stones", 0.8))
+
+    def over(task):
+        return OwnController(dataclasses.replace(task, walk={**task.walk, "steps": 3, "length": "0.5 leg"}))
+
+    found = run_trial(over, trial)
+    assert not found.completed
+    assert {"steps", "stood_on"} <= set(found.failed)
+
+
 def test_standing_beside_the_stones_does_not_count():
     trial = next(t for t in TRIALS if (t.kind, t.value) == ("stones", 0.8))
     still = run_trial(lambda task: Stiff(Action(task.stance.angles, task.stance.torques)), trial)
