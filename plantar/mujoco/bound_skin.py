@@ -401,7 +401,7 @@ class SkinView:
         load = self.press(foot)
         near = None if self._skin.proximity_range is None else self._skin.distances(self)
         block = load.block.copy()
-        force = load_parts(block)[0]
+        force = block[: self._count]
         slip = self._slip(foot) if self._skin.slip else None
         if self._worn is not None and not load.is_lost():
             if time < self._read_at:  # the simulation began again

@@ -32,6 +32,9 @@ cdef (bint, double, double, double) _tilted(
     double[:, ::1] rows, Py_ssize_t cells, double x, double y, Py_ssize_t tries
 ) noexcept
 
+@cython.locals(least=double)
+cdef bint _all_carry(double[:, ::1] rows, Py_ssize_t cells, double a, double b, double c) noexcept
+
 @cython.locals(x=double, y=double)
 cpdef tuple patch_key(points, double grid)
 

@@ -206,7 +206,21 @@ def _tilted(rows, cells, x, y, tries):
         a -= step_a
         b -= step_b
         c -= step_c
+        if turn == 0 and _all_carry(rows, cells, a, b, c):  # as at the first field: the same sums
+            r0 = m00 * a + m01 * b + m02 * c - 1.0
+            r1 = m01 * a + m11 * b + m12 * c - x
+            r2 = m02 * a + m12 * b + m22 * c - y
+            if max(abs(r0), abs(r1), abs(r2)) <= _EXACT:
+                return True, a, b, c
     return False, a, b, c
+
+
+def _all_carry(rows, cells, a, b, c):
+    """Whether the pressure a + b x + c y is above 0 at all places."""
+    least = 1.0
+    for i in range(cells):
+        least = min(least, a + b * rows[i, 1] + c * rows[i, 2])
+    return least > 0.0
 
 
 def patch_key(points, grid):

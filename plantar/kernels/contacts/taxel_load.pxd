@@ -13,6 +13,7 @@ cdef class TaxelLoad:
     cdef const double[::1] areas, widths
     cdef const double[:, ::1] hull
     cdef bint level
+    cdef double inner
     cdef readonly object block, vectors, forces, depths, wrench
     cdef double[:, ::1] _vectors
     cdef double[::1] middle, _forces, _depths, _wrench, weights, prior, normal, gaps
@@ -28,7 +29,10 @@ cdef class TaxelLoad:
     cdef void _spread_pairs(self, FootContacts contacts, const double[:, ::1] vectors, double reach) noexcept
     @cython.locals(total=double)
     cdef void _even(self, double force) noexcept
-    @cython.locals(length=double, least=double, shift=double, share=double, at_x=double, at_y=double)
+    @cython.locals(
+        length=double, least=double, shift=double, share=double, at_x=double, at_y=double, way_x=double, way_y=double,
+        span=double, along=double, px=double, py=double
+    )
     cdef void _cover(self, Py_ssize_t size) noexcept
     @cython.locals(total=double, depth=double)
     cdef void _press_deep(self, Py_ssize_t size) noexcept
@@ -38,6 +42,7 @@ cdef class TaxelLoad:
         pressure=double
     )
     cdef bint _tilt(self, double[::1] weights, double force, double x, double y) noexcept
+    @cython.locals(p=double, q=double)
     cdef bint _is_beyond(self, double x, double y) noexcept
     @cython.locals(about_x=double, about_y=double, off_x=double, off_y=double)
     cdef void _balance(self, double force) noexcept

@@ -41,6 +41,7 @@ class TaxelLoad:
         self.widths = widths
         self.hull = hull
         self.middle = hull.mean(axis=0)
+        self.inner = _inner_radius(hull, self.middle)
         self.level = bool((positions[:, 2] == 0.0).all())
         self.block = pressed_patch.load_block(count)
         self.forces, self.depths, self.vectors, self.wrench = pressed_patch.load_parts(self.block)
@@ -162,11 +163,20 @@ class TaxelLoad:
         least = 1e300
         at_x = self.ring[0, 0]
         at_y = self.ring[0, 1]
+        way_x = self.edges[0, 0]
+        way_y = self.edges[0, 1]
+        span = self.edges[0, 2]
         for i in range(count):
             x = self.positions[i, 0]
             y = self.positions[i, 1]
             if corners == 1:  # a point: as below, in a third of the time
                 gap = math.sqrt((x - at_x) * (x - at_x) + (y - at_y) * (y - at_y))
+            elif corners == 2:  # a line, as of a capsule: as below, in a fifth of the time
+                along = way_x * (x - at_x) + way_y * (y - at_y)
+                along = 0.0 if along < 0.0 else (span if along > span else along)
+                px = x - at_x - along * way_x
+                py = y - at_y - along * way_y
+                gap = math.sqrt(px * px + py * py)
             else:
                 gap = _distance(self.ring, self.edges, corners, x, y)
             self.gaps[i] = gap
@@ -200,6 +210,11 @@ class TaxelLoad:
         """Put the first points' convex hull into `ring`, counter-clockwise; its size."""
         points = self.points
         ring = self.ring
+        if size == 2 and (points[0, 0] != points[1, 0] or points[0, 1] != points[1, 1]):
+            for k in range(2):
+                ring[k, 0] = points[k, 0]
+                ring[k, 1] = points[k, 1]
+            return 2
         for k in range(1, size):  # in order of x, then y
             x = points[k, 0]
             y = points[k, 1]
@@ -254,6 +269,10 @@ class TaxelLoad:
 
     def _is_beyond(self, x, y):
         """Whether a place is beyond the outermost taxels: no pressure has its moment."""
+        p = x - self.middle[0]
+        q = y - self.middle[1]
+        if p * p + q * q < self.inner * self.inner:
+            return False
         return convex.margin_of_clean(self.hull, x, y) < -1e-12  # m: rounding
 
     def _balance(self, force):
@@ -346,6 +365,16 @@ class TaxelLoad:
             self._vectors[i, 0] = share * self.sums[0, 0] - turn * self.normal[i] * q
             self._vectors[i, 1] = share * self.sums[0, 1] + turn * self.normal[i] * p
             self._vectors[i, 2] = self.normal[i]
+
+
+def _inner_radius(hull, middle):
+    """Distance in m from `middle` (2,) to the nearest side of a hull (h, 2); 0 without an inside."""
+    if len(hull) < 3:
+        return 0.0
+    ways = np.roll(hull, -1, axis=0) - hull
+    away = middle - hull
+    margins = (ways[:, 0] * away[:, 1] - ways[:, 1] * away[:, 0]) / np.linalg.norm(ways, axis=1)
+    return max(float(margins.min()), 0.0)
 
 
 def _join(ring, corners, floor, x, y):
