@@ -63,7 +63,7 @@ class FoamSkins:
         skipped: Rays not cast.
 
     Raises:
-        InputError: If obstacles are neither names nor ids.
+        InputError: If the model is none, or obstacles are neither names nor ids.
         RobotError: If a link or obstacle is missing, or is one of a skinned link.
         SceneError: If an obstacle is of a kind that rays do not meet.
 
@@ -93,6 +93,7 @@ class FoamSkins:
         *,
         everything: bool = False,
     ) -> None:
+        instance(model, mujoco.MjModel, "model")
         self.body_skin = instance(skin, BodySkin, "skin")
         self.foam = Foam() if foam is None else instance(foam, Foam, "foam")
         self._everything = everything
@@ -131,7 +132,7 @@ class FoamSkins:
 
         Sets their `data.xfrc_applied`; other pushes use `data.qfrc_applied`.
         """
-        self._data = data
+        self._data = instance(data, mujoco.MjData, "data")
         period = float(data.time) - self._time
         self._time = float(data.time)
         self._period = period if 0.0 < period < _LONGEST_STEP else 0.0

@@ -27,6 +27,7 @@ _LOOKS = 0.1  # cosine of the angle to the frame's z from which a cell counts as
 _PLANE = 1e-6  # m, or of a normal's components: float32 meshes
 _FINEST = 2e-4  # m: no samples closer than this
 _MOST_SAMPLES = 400_000
+_FAR = 30.0  # times the body: a polygon that reaches farther is drawn in mm or cm
 
 
 class WrappedSkin(NamedTuple):
@@ -61,6 +62,12 @@ def wrapped_skin(
     `least_level`: force in N of all taxels from which they are active. RobotError: nothing there, or a strip.
     """
     surfaces = body_surfaces(model, body, geoms)
+    outline = _drawn(polygon)
+    reach = float(np.abs(_bounds(surfaces)).max())
+    drawn = float(np.abs(outline).max(initial=0.0))
+    if drawn > _FAR * reach:
+        name = model.body(body).name
+        raise RobotError(f"the drawn polygon reaches {drawn:.3g} m, and body '{name}' {reach:.3g} m; is it in m?")
     out = None if outward is None else unit_vector(outward, "outward")
     ahead = None if forward is None else unit_vector(forward, "forward")
     rotation = _axes(out, ahead)
@@ -69,7 +76,7 @@ def wrapped_skin(
         math.radians(within),
         None if around is None else unit_vector(around, "around"),
         *_box(region),
-        _drawn(polygon),
+        outline,
         np.ascontiguousarray(rotation[:, :2].T),
     )
     laid = None

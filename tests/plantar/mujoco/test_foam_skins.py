@@ -299,6 +299,10 @@ def test_what_is_wrong_is_refused_in_one_line():
         Foam(friction=-1.0)
     with pytest.raises(InputError, match="skin"):
         FoamSkins(model, [skin], ["thing"])  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="model is a MjData; expected a MjModel"):
+        FoamSkins(data, skin, ["thing"])
+    with pytest.raises(InputError, match="data is a MjModel; expected a MjData"):
+        sensor.press(model)
     assert isinstance(skin, BodySkin)
 
 

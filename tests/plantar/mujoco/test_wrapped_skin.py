@@ -361,6 +361,7 @@ def test_a_yawed_foot_has_its_own_axes(yaw):
         ({"region": ((0, 0, 0), (0, 1, 1))}, "is empty"),
         ({"outward": (1, 0, 0), "polygon": [(0, 0), (1, 1), (1, 0), (0, 1)]}, "crosses itself"),
         ({"outward": (1, 0, 0), "polygon": [(0.3, 0.3), (0.4, 0.3), (0.4, 0.4)]}, "no surface lies there"),
+        ({"outward": (1, 0, 0), "polygon": [(-20, -30), (30, -30), (30, 30)]}, "reaches 30 m, .* 0.05 m; is it in m"),
         ({"outward": (1, 0, 0), "forward": (1, 0, 0)}, "given as forward"),
         ({"outward": (0, 0, 0)}, "not all 0"),
         ({"around": "z"}, "'around' is z"),
