@@ -35,6 +35,10 @@ def robot(
         Option(help="Arms, head and waist: a keyframe's name, zero, or degrees as elbow=90,waist=0."),
     ] = None,
     imu: Annotated[str | None, Option(help="Site or body of the IMU, instead of the lowest one.")] = None,
+    leg: Annotated[
+        float | None,
+        Option(min=0.05, max=5.0, help="Length in m that steps and clearance are shares of, for shorter ones."),
+    ] = None,
     foot: Annotated[str | None, Option(help="Both bodies that wear shoes, as l_foot,r_foot.")] = None,
     solid: Annotated[bool, Option("--solid", help="Build the printable shoes, too; takes half a minute.")] = False,
     output: Output = Path("out/robot"),
@@ -59,7 +63,8 @@ def robot(
         raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
     if robot_file is None and model.suffix.lower() == ".toml":
         raise InputError(f"{model} is no model but a robot file; look at it with: plantar robot check {model}")
-    stated = {"--height": height, "--stance": stance, "--posture": posture, "--imu": imu, "--foot": foot}
+    stated = {"--height": height, "--stance": stance, "--posture": posture, "--imu": imu}
+    stated |= {"--foot": foot, "--leg": leg}
     given = [option for option, value in stated.items() if value is not None]
     if robot_file is not None and given:
         raise InputError(f"{given[0]} is for a model, not for the check; in a robot file change what it stands for")
@@ -73,7 +78,7 @@ def robot(
     from plantar.sim.survey.trial_walk import trial_names
 
     names = trial_names(trials)
-    wishes = Wishes(height, stance, posture, imu, None if foot is None else feet_named(foot))
+    wishes = Wishes(height, stance, posture, imu, None if foot is None else feet_named(foot), leg)
     need_compiled("walking")  # before a survey of minutes, whose robot could not be tried
     from plantar.common.atomic import output_folder
     from plantar.common.files.model_files import files_of_model

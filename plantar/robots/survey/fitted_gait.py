@@ -124,7 +124,8 @@ def fit_gait(
     if robot.rocks:
         notes.append(
             f"without ankle roll soles come off level by up to {math.degrees(reach.roll):.0f} degrees: the robot rocks "
-            "from foot to foot in short quick steps, and cannot wait on one of them"
+            "from foot to foot in short quick steps, and cannot wait on one of them, so that it hits a slab that it does "
+            "not know of (--trials flat,stone,push leaves that out; an ankle that rolls helps)"
         )
     if len(robot.posture["left"]) < _TURNING:
         notes.append("legs of four joints do not turn the feet: the robot walks straight ahead")

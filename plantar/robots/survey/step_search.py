@@ -93,8 +93,8 @@ def best_steps(
 ) -> tuple[Robot, BodyScale, PlanReach]:
     """Returns the `robot` with the best height, pace, stance and lean, the `body` of its steps, and their demands.
 
-    `seed`: height in m of its CoM in that posture; `notes`: what was not met is added; `wishes`: their height and
-    stance are the only ones looked at.
+    `seed`: height in m of its CoM in that posture; `notes`: what was not met is added; `wishes`: their height,
+    stance and leg are the only ones looked at.
     """
     best: _Tried | None = None
     heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)
@@ -102,9 +102,10 @@ def best_steps(
         heights = np.array([wishes.height])
     rocks = rocking(robot, float(heights[0]) if len(heights) == 1 else seed)
     quick = (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat)  # of the leg, for h1's speed
-    for share in (min(1.0, quick),) if robot.rocks else _SHORTER:
+    shares = _SHORTER if wishes.leg is None else (min(1.0, wishes.leg / body.leg),)
+    for share in (min(1.0, quick),) if robot.rocks else shares:
         shorter = replace(body, leg=math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg)
-        paid = 0.0 if robot.rocks else _OTHER_SPEED * -math.log2(share)
+        paid = 0.0 if robot.rocks or len(shares) == 1 else _OTHER_SPEED * -math.log2(share)
         for other, changed in _others(robot, body, wishes.stance is not None):
             if best is None or paid + changed < best.cost > _GOOD:
                 best = _least(best, other, legs, shorter, heights, paid + changed)
@@ -119,6 +120,7 @@ def best_steps(
     best = best if robot.rocks else _slowed(best, legs, heights)
     if best.body.leg < body.leg:
         why = "quick steps are short" if robot.rocks else "joints or motors leave no steps of a third of the leg"
+        why = why if wishes.leg is None or robot.rocks else "shorter steps are stated"
         notes.append(f"{why}: steps are shares of leg_length = {best.body.leg:g} m, not of {body.leg:g} m")
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.full(len(best.reach.torque), np.inf)
     j = int((best.reach.torque / limits).argmax())

@@ -19,6 +19,7 @@ class Wishes:
         posture: Of arms, head and waist: a keyframe's name, "zero", or angles in degrees, "elbow=90,waist=0".
         imu: Name of the site or body of the IMU.
         feet: Names of the bodies that wear the shoes, in any order.
+        leg: Length in m that steps, clearance and times are shares of: a shorter one than hip over knee to ankle.
     """
 
     height: float | None = None
@@ -26,6 +27,7 @@ class Wishes:
     posture: str | None = None
     imu: str | None = None
     feet: tuple[str, str] | None = None
+    leg: float | None = None
 
 
 NO_WISHES = Wishes()

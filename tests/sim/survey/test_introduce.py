@@ -324,6 +324,32 @@ def test_the_walk_decides_and_the_file_is_written_all_the_same(tmp_path, monkeyp
     load_robot(tmp_path / "out" / "robot.toml")
 
 
+@pytest.mark.parametrize("steps_off", [True, False])
+def test_a_robot_that_misses_a_slab_is_tried_with_shorter_steps(tmp_path, monkeypatch, steps_off):
+    """They are kept where all trials are completed with them; if not, the file is the first one."""
+    walked = []
+
+    def others(file, names, level):
+        legs = load_robot(file).leg_length
+        walked.append(legs)
+        missed = "" if steps_off and legs < 0.8 * walked[0] else "impact"
+        return [Trial("slab", missed)]
+
+    truth = random_biped(SEED, tmp_path)
+    (tmp_path / "out").mkdir()
+    monkeypatch.setattr("plantar.sim.survey.introduce.draw_robot", lambda *_: None)
+    monkeypatch.setattr("plantar.sim.survey.introduce.level_trial", lambda _: (3.0, Trial("flat", "")))
+    monkeypatch.setattr("plantar.sim.survey.introduce.other_trials", others)
+    found = introduce(truth.file, tmp_path / "out", shoe_for_surface)
+    assert walked[1] == pytest.approx(0.75 * walked[0], abs=1e-3)
+    assert found.walks == steps_off
+    written = load_robot(tmp_path / "out" / "robot.toml")
+    assert written.leg_length == found.robot.leg_length == walked[int(steps_off)]
+    assert written.single_support == found.fitted.robot.single_support
+    assert any("(--leg)" in note for note in found.notes) == steps_off
+    assert written.controller["push_estimate"]["begins"] == 4.5
+
+
 def test_a_model_called_mjcf_is_read_as_one_called_xml(tmp_path):
     truth = random_biped(SEED, tmp_path)
     other = truth.file.with_suffix(".mjcf")
