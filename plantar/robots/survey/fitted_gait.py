@@ -113,6 +113,7 @@ def fit_gait(
     bears = ankle_reach(robot, body.weight, ankle)
     if bears is not None:
         robot = replace(robot, ankle_reach=bears)
+        notes += _weak_ankle(robot, body.weight, ankle)
     seed = posture_height(robot, legs)
     robot = robot if has_ankle_roll(robot, legs) else replace(robot, rocks=True)
     robot, body, reach = best_steps(robot, legs, body, seed, notes, wishes)
@@ -124,8 +125,8 @@ def fit_gait(
     if robot.rocks:
         notes.append(
             f"without ankle roll soles come off level by up to {math.degrees(reach.roll):.0f} degrees: the robot rocks "
-            "from foot to foot in short quick steps, and cannot wait on one of them, so that it hits a slab that it does "
-            "not know of (--trials flat,stone,push leaves that out; an ankle that rolls helps)"
+            "from foot to foot in short quick steps, and cannot wait on one of them, so that it hits a slab that it "
+            "does not know of (--trials flat,stone,push leaves that out; an ankle that rolls helps)"
         )
     if len(robot.posture["left"]) < _TURNING:
         notes.append("legs of four joints do not turn the feet: the robot walks straight ahead")
@@ -157,6 +158,22 @@ def fit_gait(
             f"{assumed.max():.2g} kg m^2 is assumed as armature in model.xml, put the motors' there"
         )
     return FittedGait(robot, body, inertia, reach, notes, assumed, dict(legs.known))
+
+
+def _weak_ankle(robot: Robot, weight: float, ankle: int) -> list[str]:
+    """What ankles lack that do not bear the robot's weight in N over the soles' middles: a sole is loaded at half of
+    what they reach. `ankle`: index of the pitching joint.
+    """
+    outline = robot.layouts["left"].outline
+    middle = 0.5 * float(outline[:, 0].min() + outline[:, 0].max())
+    if robot.ankle_reach >= middle:
+        return []
+    name = robot.legs["left"].joints[ankle]
+    return [
+        f"{name} bears the robot up to {1e3 * robot.ankle_reach:.0f} mm ahead of itself with "
+        f"{robot.effort_limits[ankle]:.3g} N m, where the sole's middle is {1e3 * middle:.0f} mm ahead: a part of a "
+        f"sole, or a push, may be beyond it; a motor of {math.ceil(2.0 * weight * middle)} N m loads the middle"
+    ]
 
 
 def _narrowed(robot: Robot, legs: LegModel, body: BodyScale) -> Robot:

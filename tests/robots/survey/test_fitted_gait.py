@@ -1,6 +1,7 @@
 """Numbers of a walk that fit a robot: how quickly its motors let it step."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -19,10 +20,12 @@ from plantar.robots.survey.fitted_gait import (
     QUICK_SINGLE,
     QUICK_STEP,
     FittedGait,
+    _weak_ankle,
     fit_gait,
 )
 from plantar.robots.survey.plan_reach import plan_reach
 from plantar.robots.survey.step_search import STEP_SHARE, straight_walk
+from plantar.robots.survey.step_time import ankle_reach
 from plantar.robots.survey.wishes import Wishes
 from plantar.robots.walk import walk_timing
 from plantar.sim.run.scene import load_scene
@@ -130,3 +133,22 @@ def test_a_time_that_a_scene_states_is_kept_or_refused():
     assert controller_settings(stated, weak, SLOW, {}).timing.single_support == pytest.approx(0.9)
     with pytest.raises(InputError, match=r"single_support = 0\.9 s.* rocks .* allowed: 0"):
         walk_timing(stated.walk, replace(weak, rocks=True), SLOW)
+
+
+def test_a_motor_that_is_named_for_a_weak_ankle_loads_the_soles_middle():
+    weight = 500.0
+    h1 = load_robot("h1")
+    low, high = h1.layouts["left"].outline[:, 0].min(), h1.layouts["left"].outline[:, 0].max()
+    middle = 0.5 * (low + high)
+
+    def with_motor(torque):
+        robot = replace(h1, effort_limits=(1000.0,) * 4 + (torque, 1000.0))
+        return replace(robot, ankle_reach=ankle_reach(robot, weight, 4))
+
+    assert _weak_ankle(with_motor(1.05 * weight * middle), weight, 4) == []
+    weak = with_motor(0.8 * weight * middle)
+    (note,) = _weak_ankle(weak, weight, 4)
+    assert note.startswith(weak.legs["left"].joints[4])
+    works = float(re.search(r"a motor of (\d+) N m", note)[1])
+    assert with_motor(works).middle_of_sole("left")[0] == pytest.approx(middle, abs=0.03 * high)
+    assert weak.middle_of_sole("left")[0] < 0.5 * middle
