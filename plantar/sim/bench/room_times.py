@@ -14,7 +14,7 @@ _ROOT = Path(__file__).resolve().parents[2]
 _INTERVAL = 0.001  # s between two looks: about one a physics step, and under 0.5 % of the time
 
 ROOMS: Mapping[str, tuple[str, ...]] = {
-    "physics": (),  # `Simulation.step_physics`, by the name of its function
+    "physics": (),  # `step_physics` and `Simulation.advance`, whose kernel makes the steps, by their functions' names
     "sensing": ("sim/sensing/", "sim/body_skin/", "sim/plant/"),
     "perception": ("percepts/", "sensing/", "gait/estimate/skin_load.py"),
     "estimate": ("gait/estimate/",),
@@ -75,6 +75,8 @@ class RoomTimes:
                 inside = path.is_absolute() and path.is_relative_to(_ROOT)
                 self._rooms[name] = room_of(path.relative_to(_ROOT).as_posix()) if inside else None
             room = self._rooms[name]
+            if room == "loop" and code.co_name == "advance":
+                room = "physics"
             if room is not None:
                 self._counts[room] += 1
                 return

@@ -34,5 +34,19 @@ def test_time_counts_for_the_room_that_takes_it():
     assert abs(sum(rooms.shares.values()) - 1.0) < 1e-9
 
 
+def test_steps_that_a_kernel_makes_are_physics():
+    spaces = []
+    for path in ("sim/run/runner.py", "gait/estimate/estimator.py"):
+        spaces.append({"clock": time.perf_counter})
+        exec(compile("def advance(end):\n    while clock() < end: pass\n", str(ROOT / path), "exec"), spaces[-1])
+    run, estimate = (space["advance"] for space in spaces)
+    with RoomTimes() as rooms:
+        run(time.perf_counter() + 0.1)
+        estimate(time.perf_counter() + 0.1)
+    assert rooms.shares["physics"] > 0.1
+    assert rooms.shares["estimate"] > 0.1
+    assert rooms.shares["loop"] < 0.1
+
+
 def test_without_samples_there_is_no_share():
     assert RoomTimes().shares == {}
