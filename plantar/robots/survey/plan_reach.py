@@ -195,11 +195,12 @@ class _Pass:
             *(values.tobytes() for values in (self.legs.configuration, *self.middles.values())),
         )
         if key not in self.legs.known:
+            before = dict(vars(self))
             ends = self._looked(bears)
-            own = (self.missed, self.knee, self.straightest, self.spare, self.roll, self.seen)
-            self.legs.known[key] = (ends, *own, self.legs.configuration)
-        ends, *own, configuration = self.legs.known[key]
-        self.missed, self.knee, self.straightest, self.spare, self.roll, self.seen = own
+            found = {name: value for name, value in vars(self).items() if value is not before[name]}
+            self.legs.known[key] = (ends, {**found, "seen": self.seen}, self.legs.configuration)
+        ends, found, configuration = self.legs.known[key]
+        vars(self).update(found)
         self.legs.restore(configuration)
         return bool(ends)
 

@@ -1,7 +1,7 @@
 """What a swinging leg takes of the sole that carries, by the planned motion alone."""
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import mujoco
 import numpy as np
@@ -24,6 +24,22 @@ def reach_of(name, slower):
     legs = build_leg_model(robot)
     body = body_of(robot, legs.model)
     return plan_reach(robot, legs, straight_walk(robot, body, robot.com_height - 0.1 * body.leg, steps=2))
+
+
+def test_what_is_known_of_a_walk_is_all_that_was_found(monkeypatch):
+    robot = load_robot("h1")
+    legs = build_leg_model(robot)
+    body = body_of(robot, legs.model)
+    walk = straight_walk(robot, body, robot.com_height - 0.25 * body.leg, steps=2)
+    first = asdict(plan_reach(robot, legs, walk))
+    end = legs.configuration
+    monkeypatch.setattr(_Pass, "look", None)  # not looked at again
+    again = asdict(plan_reach(robot, legs, walk))
+    assert first["low"] > 0.0
+    assert {name: np.array(value).tolist() for name, value in again.items()} == {
+        name: np.array(value).tolist() for name, value in first.items()
+    }
+    assert legs.configuration.tolist() == end.tolist()
 
 
 @pytest.mark.parametrize("name", builtin_robots())
