@@ -73,6 +73,7 @@ REPOSITORIES = {
     "atom01": ("Roboparty/roboto_origin", "modules/atom01_description/mjcf/atom01.xml"),
     "Wolfgang": ("bit-bots/wolfgang_robot", "wolfgang_description/urdf/robot.urdf"),
     "ergoCub": ("icub-tech-iit/ergocub-software", "urdf/ergoCub/robots/ergoCubSN001/model.urdf"),
+    "Draco 3": ("shbang91/rpc", "robot_model/draco/draco_latest_collisions.urdf"),
     "Fourier N1": ("YanjieZe/GMR", "assets/fourier_n1/n1_mocap.xml"),
     "OpenLoong": (
         "fan-ziqi/robot_lab",
