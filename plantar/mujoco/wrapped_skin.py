@@ -61,12 +61,12 @@ def wrapped_skin(
 
     `least_level`: force in N of all taxels from which they are active. RobotError: nothing there, or a strip.
     """
+    name = model.body(body).name
     surfaces = body_surfaces(model, body, geoms)
     outline = _drawn(polygon)
     reach = float(np.abs(_bounds(surfaces)).max())
     drawn = float(np.abs(outline).max(initial=0.0))
     if drawn > _FAR * reach:
-        name = model.body(body).name
         raise RobotError(f"the drawn polygon reaches {drawn:.3g} m, and body '{name}' {reach:.3g} m; is it in m?")
     out = None if outward is None else unit_vector(outward, "outward")
     ahead = None if forward is None else unit_vector(forward, "forward")
@@ -79,15 +79,15 @@ def wrapped_skin(
         outline,
         np.ascontiguousarray(rotation[:, :2].T),
     )
-    laid = None
     left = left_body(model, body, surfaces)
     if left is not None:
         try:
-            laid = _brought(model, body, left, chosen, rotation, ahead, side, cell_area, least_level)
-        except RobotError:  # its line would be of the left body
-            laid = None
-    if laid is None:
-        laid = _laid(model, body, surfaces, chosen, rotation, side, cell_area, least_level)
+            laid = _brought(model, name, left, chosen, rotation, ahead, side, cell_area, least_level)
+        except RobotError:  # both sides refuse, this one in the words of its own frame if they are the same
+            _laid(model, body, name, surfaces, chosen, rotation, side, cell_area, least_level)
+            raise
+    else:
+        laid = _laid(model, body, name, surfaces, chosen, rotation, side, cell_area, least_level)
     kernel = _kernel(model, geoms, surfaces, laid.layout, laid.radius, chosen, laid.position, rotation)
     return WrappedSkin(laid.layout, laid.position, rotation, laid.rings, kernel)
 
@@ -104,6 +104,7 @@ class _Laid(NamedTuple):
 def _laid(
     model: Any,
     body: int,
+    name: str,
     surfaces: list[GeomSurface],
     chosen: Region,
     rotation: NDArray[np.float64],
@@ -111,9 +112,8 @@ def _laid(
     cell_area: float | None,
     least_level: float,
 ) -> _Laid:
-    """Lay cells on the chosen part of a body's own surfaces."""
+    """Lay cells, of a skin of the body called `name`, on the chosen part of a body's own surfaces."""
     out = chosen.outward
-    name = model.body(body).name
     where = f"the skin of body '{name}'"
     own_side = side or _side_of(model, body)
     is_right = own_side == "right"
@@ -150,7 +150,7 @@ def _laid(
 
 def _brought(
     model: Any,
-    body: int,
+    name: str,
     left: LeftBody,
     chosen: Region,
     rotation: NDArray[np.float64],
@@ -159,7 +159,7 @@ def _brought(
     cell_area: float | None,
     least_level: float,
 ) -> _Laid:
-    """The cells that the left body has on the mirrored part of its surfaces, mirrored; arguments of the right body."""
+    """The left body's cells on the mirrored part of its surfaces, mirrored; arguments of the right body `name`."""
     way = left.way
     out = None if chosen.outward is None else way @ chosen.outward
     its_rotation = _axes(out, None if ahead is None else way @ ahead)
@@ -174,15 +174,13 @@ def _brought(
         np.ascontiguousarray(its_rotation[:, :2].T),
     )
     its_side = None if side is None else other_side(side)
-    laid = _laid(model, left.body, left.surfaces, region, its_rotation, its_side, cell_area, least_level)
-    name = model.body(body).name
+    laid = _laid(model, left.body, name, left.surfaces, region, its_rotation, its_side, cell_area, least_level)
     layout = laid.layout
     places = layout.positions @ turn.T
     turns = _frames(layout.rotations[:, :, 2] @ turn.T)
     if isinstance(layout, SoleLayout):
         layout = replace(
             layout,
-            name=name,
             side=other_side(layout.side),
             positions=places,
             rotations=turns,
@@ -191,7 +189,7 @@ def _brought(
             outline=(layout.outline @ turn[:2, :2].T)[::-1],
         )
     else:
-        layout = replace(layout, name=name, link=name, positions=places, rotations=turns)
+        layout = replace(layout, positions=places, rotations=turns)
     return _Laid(layout, way.T @ laid.position, [(ring @ turn.T)[::-1] for ring in laid.rings], laid.radius)
 
 
