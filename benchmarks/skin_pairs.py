@@ -72,10 +72,17 @@ def other_name(name: str, names: set[str]) -> str | None:
 
 
 def features(model: Any, body: int) -> NDArray[np.float64]:
-    """Corners, ends, and radii (k, 5) of a body's colliding shapes: place, radius, kind."""
+    """Places, radii and kinds (k, 5) of corners and ends of the shapes of a body and what is fixed to it."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    frame = data.xmat[body].reshape(3, 3)
+    fixed = {body}
+    for child in range(body + 1, model.nbody):
+        if model.body_parentid[child] in fixed and not model.body_jntnum[child]:
+            fixed.add(child)
     rows = []
     for g in range(model.ngeom):
-        if model.geom_bodyid[g] != body or not (model.geom_contype[g] or model.geom_conaffinity[g]):
+        if model.geom_bodyid[g] not in fixed or not (model.geom_contype[g] or model.geom_conaffinity[g]):
             continue
         kind = int(model.geom_type[g])
         size = model.geom_size[g]
@@ -96,9 +103,7 @@ def features(model: Any, body: int) -> NDArray[np.float64]:
             radius = float(size[0])
             half = 0.0 if kind == KINDS.mjGEOM_SPHERE else float(size[1])
             local = np.array([[0.0, 0.0, half], [0.0, 0.0, -half]])
-        turn = np.empty(9)
-        mujoco.mju_quat2Mat(turn, model.geom_quat[g])
-        placed = local @ turn.reshape(3, 3).T + model.geom_pos[g]
+        placed = (local @ data.geom_xmat[g].reshape(3, 3).T + data.geom_xpos[g] - data.xpos[body]) @ frame
         rows.append(np.column_stack([placed, np.full((len(placed), 2), [radius, float(kind)])]))
     return np.vstack(rows) if rows else np.zeros((0, 5))
 

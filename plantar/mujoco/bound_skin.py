@@ -29,7 +29,7 @@ from plantar.sensing.link_skin import SkinPatch
 from plantar.sensing.reading import Reading
 from plantar.sensing.taxel_faults import TaxelFaults
 
-_PASSED = 20  # surfaces of its own that a ray passes at most
+_PASSED = 20  # own surfaces that a ray passes at most
 
 LIFT = 0.02
 """Depth in m inside the body at which rays begin: what is deeper is not seen."""

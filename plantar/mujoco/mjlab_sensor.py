@@ -109,7 +109,7 @@ class SkinSensor(_Sensor):
         self._force = None
         with wp.ScopedDevice(self._device):
             self._many.read(self._worlds)
-            if not self._device.is_cpu:  # PyTorch has a stream of its own
+            if not self._device.is_cpu:  # PyTorch has its own stream
                 wp.synchronize_stream(self._device)
         return torch.as_tensor(wp.to_torch(self._many.vectors)).float()
 

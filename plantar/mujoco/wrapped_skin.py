@@ -83,7 +83,7 @@ def wrapped_skin(
     if left is not None:
         try:
             laid = _brought(model, name, left, chosen, rotation, ahead, side, cell_area, least_level)
-        except RobotError:  # both sides refuse, this one in the words of its own frame if they are the same
+        except RobotError:  # both sides refuse, this one by its own places where it can
             _laid(model, body, name, surfaces, chosen, rotation, side, cell_area, least_level)
             raise
     else:
@@ -196,7 +196,7 @@ def _brought(
 def _mirrored_box(
     low: NDArray[np.float64], high: NDArray[np.float64], way: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Corners of a box, of which some may be infinite, in a frame whose axes are others of its own."""
+    """Corners of a box, of which some may be infinite, in a frame whose axes are the same, reordered or reversed."""
     axes = np.abs(way).argmax(axis=1)
     along = way[range(3), axes] > 0.0
     return np.where(along, low[axes], -high[axes]), np.where(along, high[axes], -low[axes])
