@@ -120,7 +120,7 @@ def best_steps(
     best = best if robot.rocks else _slowed(best, legs, heights)
     if best.body.leg < body.leg:
         why = "quick steps are short" if robot.rocks else "joints or motors leave no steps of a third of the leg"
-        why = why if wishes.leg is None or robot.rocks else "shorter steps are stated"
+        why = why if wishes.leg is None or robot.rocks else "shorter steps are taken"
         notes.append(f"{why}: steps are shares of leg_length = {best.body.leg:g} m, not of {body.leg:g} m")
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.full(len(best.reach.torque), np.inf)
     j = int((best.reach.torque / limits).argmax())

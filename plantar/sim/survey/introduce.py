@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from plantar.common.atomic import write_text
 from plantar.common.console.ending import one_line
+from plantar.common.settings.body_scale import BodyScale
 from plantar.common.sides import SIDES
 from plantar.errors import RobotError
 from plantar.geometry.polygon import area
@@ -204,11 +205,12 @@ def introduce(
         first = file.read_text(encoding="utf-8")
         stated = replace(wishes, leg=round(_SHORTER * fitted.body.leg, 4))
         shorter = fit_gait(draft, survey.gains, fitted.rotors, stated)
-        again = _walked(file, robot_text(survey, shorter, shoes.notes, shoes.mass is not None), trials)
+        text = robot_text(survey, shorter, shoes.notes, shoes.mass is not None)
+        again = _walked(file, text, trials, fitted.body)
         if all(trial.completed for trial in again):
             notes += [
-                f"with steps for a leg of {fitted.body.leg:g} m a trial is missed: {miss}; steps, and what they step "
-                f"onto, are shares of leg_length = {shorter.body.leg:g} m (--leg)"
+                f"with steps for a leg of {fitted.body.leg:g} m a trial is missed: {miss}; the same slab and push are "
+                f"completed with steps that are shares of leg_length = {shorter.body.leg:g} m (--leg)"
                 for miss in missed
             ]
             fitted = shorter
@@ -226,12 +228,15 @@ def introduce(
     return Introduced(robot, survey, fitted, shoes, tuple(files), walked, tuple(notes))
 
 
-def _walked(file: Path, text: str, trials: Sequence[str]) -> tuple[Trial, ...]:
-    """Write a robot file with a `text`, and thresholds of a push by its walk on level ground; returns its trials."""
+def _walked(file: Path, text: str, trials: Sequence[str], body: BodyScale | None = None) -> tuple[Trial, ...]:
+    """Write a robot file with a `text`, and thresholds of a push by its walk on level ground; returns its trials.
+
+    `body`: whose slab and push they are, in m and m/s; by default the robot's own.
+    """
     write_text(file, text)
     level, first = level_trial(str(file))
     write_text(file, text + push_text(level))
-    return first, *other_trials(str(file), trials, first)
+    return first, *other_trials(str(file), trials, first, body)
 
 
 def _fitted(draft: Robot, gains: Sequence[tuple[float, float]], wishes: Wishes) -> FittedGait:

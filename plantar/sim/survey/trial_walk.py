@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from plantar.common.console.ending import one_line
+from plantar.common.settings.body_scale import BodyScale
 from plantar.errors import InputError, PlantarError
 from plantar.gait.estimate.push_estimate import PushRules
 from plantar.sim.run.runner import Simulation, run_scene
@@ -13,6 +14,9 @@ from plantar.sim.run.scene import load_scene
 
 TRIALS: Mapping[str, str] = {"flat": "flat", "stone": "partial-third", "slab": "obstacle", "push": "push"}
 """Scene of each trial, in their order; without level ground the others are not walked."""
+
+_SIZES: Mapping[str, tuple[str, str]] = {"slab": ("terrain", "top"), "push": ("push", "dv")}
+"""Section and setting of what grows with the body, in those trials in which it makes them harder."""
 
 _STEPS = 8
 _STANDS_OUT = 1.5  # of what level ground leaves: other ground leaves more, and a push has to stand out of it
@@ -91,17 +95,30 @@ def level_trial(robot_file: str) -> tuple[float, Trial]:
     return level, _judged("flat", summary)
 
 
-def other_trials(robot_file: str, names: Sequence[str], level: Trial) -> list[Trial]:
-    """Walk the trials of `names` but the first, which was `level`; all with seed 0."""
+def other_trials(robot_file: str, names: Sequence[str], level: Trial, body: BodyScale | None = None) -> list[Trial]:
+    """Walk the trials of `names` but the first, which was `level`; all with seed 0.
+
+    `body`: whose slab and push they are, in m and m/s; by default the robot's own.
+    """
     if not level.completed:
         return [Trial(name, "its turn, as level ground is missed") for name in names[1:]]
     trials = []
     for name in names[1:]:
         try:
-            trials.append(_judged(name, run_scene(load_scene(TRIALS[name], (), robot_file), 0)))
+            settings = () if body is None else _as_for(body, name)
+            trials.append(_judged(name, run_scene(load_scene(TRIALS[name], settings, robot_file), 0)))
         except PlantarError as error:
             trials.append(Trial(name, f"its begin: {one_line(error)}"))
     return trials
+
+
+def _as_for(body: BodyScale, name: str) -> tuple[str, ...]:
+    """Settings that make a trial of another robot as high and hard as that of a `body`."""
+    if name not in _SIZES:
+        return ()
+    section, setting = _SIZES[name]
+    size = getattr(getattr(load_scene(TRIALS[name]).for_body(body), section), setting)
+    return (f"{section}.{setting}={size}",)
 
 
 def _judged(name: str, summary: Mapping[str, Any]) -> Trial:

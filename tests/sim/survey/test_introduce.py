@@ -329,8 +329,10 @@ def test_a_robot_that_misses_a_slab_is_tried_with_shorter_steps(tmp_path, monkey
     """They are kept where all trials are completed with them; if not, the file is the first one."""
     walked = []
 
-    def others(file, names, level):
+    def others(file, names, level, body):
         legs = load_robot(file).leg_length
+        assert body is None or body.leg == pytest.approx(walked[0])  # slab and push stay those of the whole leg
+        assert (body is None) == (not walked)
         walked.append(legs)
         missed = "" if steps_off and legs < 0.8 * walked[0] else "impact"
         return [Trial("slab", missed)]

@@ -1,11 +1,14 @@
 """First steps of a new robot in simulation, and the threshold of pushes by them."""
 
 import tomllib
+from dataclasses import replace
 
 import pytest
 
+from plantar.common.settings.body_scale import REFERENCE_BODY
 from plantar.errors import InputError
 from plantar.gait.estimate.push_estimate import PushRules
+from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.trial_walk import TRIALS, Trial, _Level, level_trial, other_trials, push_text, trial_names
 
 
@@ -60,6 +63,23 @@ def test_trials_are_walked_in_their_order_and_a_missed_one_is_named(monkeypatch)
         "push (plantar sim push): completed, 8 steps",
     )
     assert slab.as_dict() == {"name": "slab", "scene": "obstacle", "completed": False, "missed": "fall"}
+
+
+def test_another_bodys_slab_and_push_are_as_high_and_hard_as_its_own(monkeypatch):
+    scenes = []
+
+    def run(scene, seed):
+        scenes.append(scene)
+        return {"steps_taken": 8, "reasons": []}
+
+    monkeypatch.setattr("plantar.sim.survey.trial_walk.run_scene", run)
+    body = REFERENCE_BODY
+    longer = replace(body, leg=2.0 * body.leg)
+    other_trials("h1", tuple(TRIALS), Trial("flat", ""), longer)
+    _, slab, push = scenes
+    own = load_scene("obstacle").for_body(body).terrain.top
+    assert slab.for_body(body).terrain.top == pytest.approx(2.0 * own)
+    assert push.for_body(body).push.dv == load_scene("push").for_body(longer).push.dv
 
 
 def test_an_unknown_trial_is_refused():
