@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from statistics import median
 
 import numpy as np
-from resumable import FOLDER, Benchmark, Case, Row, latest, origin, rows_of, write_table
+from resumable import FOLDER, Benchmark, Case, Row, largest_impact, latest, origin, rows_of, write_table
 
 from plantar import Reading
 from plantar.bench.intervals import wilson_interval
@@ -94,7 +94,7 @@ BENCHMARK = Benchmark(
     {
         "fell": "fell",
         "zmp_margin_min_m": "zmp_margin_min_m",
-        "impact_max": lambda simulation, out: round(max(out["impacts_N"] or [0.0]) / simulation.body.weight, 3),
+        "impact_max": largest_impact,
         "at_torque_limit": "torque_limit.share_of_time",
     },
     cases(),

@@ -15,7 +15,19 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from resumable import FOLDER, Benchmark, Case, Row, add_row, commit, latest, origin, rows_of, write_table
+from resumable import (
+    FOLDER,
+    Benchmark,
+    Case,
+    Row,
+    add_row,
+    commit,
+    largest_impact,
+    latest,
+    origin,
+    rows_of,
+    write_table,
+)
 
 from plantar.bench.intervals import wilson_interval
 from plantar.bench.tables import markdown_table
@@ -147,7 +159,7 @@ BENCHMARK = Benchmark(
     {
         "fell": "fell",
         "zmp_margin_min_m": "zmp_margin_min_m",
-        "impact_max": lambda simulation, out: round(max(out["impacts_N"] or [0.0]) / simulation.body.weight, 3),
+        "impact_max": largest_impact,
         "impact_mean": lambda simulation, out: round(
             float(np.mean(out["impacts_N"] or [0.0])) / simulation.body.weight, 4
         ),

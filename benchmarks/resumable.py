@@ -156,6 +156,11 @@ def fallen(rows: list[Row]) -> str:
     return str(sum(r["fell"] in ("True", "1") for r in rows))
 
 
+def largest_impact(simulation: Any, out: Mapping[str, Any]) -> float:
+    """Of a run's landings, in body weights; 0 without."""
+    return round(max(out["impacts_N"] or [0.0]) / float(simulation.body.weight), 3)
+
+
 def processor_time() -> float:
     """In s, of this process and its finished workers."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]

@@ -30,6 +30,7 @@ from skin_touches import models_below
 from plantar.bench.tables import markdown_table
 from plantar.errors import PlantarError
 from plantar.mujoco import Skin
+from plantar.mujoco.mirrored_body import MIRRORINGS
 
 KINDS = mujoco.mjtGeom
 ROOT = Path(__file__).resolve().parents[1]
@@ -108,18 +109,6 @@ def features(model: Any, body: int) -> NDArray[np.float64]:
     return np.vstack(rows) if rows else np.zeros((0, 5))
 
 
-def mirrorings() -> Iterator[NDArray[np.float64]]:
-    """The 24 ways to mirror axes, that which only turns y first."""
-    found = []
-    for order in itertools.permutations(range(3)):
-        for signs in itertools.product((1.0, -1.0), repeat=3):
-            way = np.zeros((3, 3))
-            way[range(3), order] = signs
-            if np.linalg.det(way) < 0.0:
-                found.append(way)
-    return iter(sorted(found, key=lambda way: float(np.abs(way - np.diag([1.0, -1.0, 1.0])).sum())))
-
-
 def paired(model: Any, left: str, right: str) -> Pair | None:
     """The pair, and the way that mirrors it best; None without shapes."""
     one = features(model, model.body(left).id)
@@ -128,7 +117,7 @@ def paired(model: Any, left: str, right: str) -> Pair | None:
         return None
     tree = cKDTree(one)
     best = None
-    for way in mirrorings():
+    for way in MIRRORINGS:
         seen = np.column_stack([two[:, :3] @ way.T, two[:, 3:]])
         off = max(float(tree.query(seen)[0].max()), float(cKDTree(seen).query(one)[0].max()))
         if best is None or off < 0.5 * best.off - 1e-12:

@@ -85,7 +85,7 @@ def _mirroring(left: NDArray[np.float64], right: NDArray[np.float64]) -> NDArray
     tree = cKDTree(left)
     best = None
     least = _ALIKE
-    for way in _MIRRORINGS:
+    for way in MIRRORINGS:
         seen = np.column_stack([right[:, :3] @ way.T, right[:, 3:]])
         bounds = np.abs([seen.min(axis=0) - left.min(axis=0), seen.max(axis=0) - left.max(axis=0)]).max()
         if bounds > least:
@@ -108,4 +108,5 @@ def _mirrorings() -> list[NDArray[np.float64]]:
     return sorted(found, key=lambda way: float(np.abs(way - np.diag([1.0, -1.0, 1.0])).sum()))
 
 
-_MIRRORINGS = _mirrorings()
+MIRRORINGS = _mirrorings()
+"""The 24 ways (3, 3) to mirror a frame's axes onto axes, that which only turns y first."""
