@@ -133,13 +133,14 @@ class Supervision:
             self.tracking = tracking
         measured = sensors.joint_positions
         slips = body.slips if body is not None and body.slipped else None
-        far = tracking.update(measured if slips is None else measured - slips, commanded)
+        angles = measured if slips is None else measured - slips
+        far = tracking.update(angles, commanded)
         count = tracking.noticed_count
         if count or self._taken:
             noticed = set(np.flatnonzero(tracking.noticed).tolist())
             self._true &= noticed
             for joint in noticed - self._true - self._taken:
-                if self._is_true(joint, measured if slips is None else measured - slips, commanded, last):
+                if self._is_true(joint, angles, commanded, last):
                     self._true.add(joint)
             taken = noticed - self._true if 0 < count <= _MOST_TAKEN else set()
             if body is not None:
@@ -159,10 +160,10 @@ class Supervision:
         if not self._taken:
             return sensors
         given = commanded if slips is None else commanded + slips
-        angles = measured.copy()
+        replaced = measured.copy()
         for joint in self._taken:
-            angles[joint] = given[joint]
-        return sensors.changed(joint_positions=angles)
+            replaced[joint] = given[joint]
+        return sensors.changed(joint_positions=replaced)
 
     def _is_true(self, joint: int, angles: NDArray[np.float64], commanded: NDArray[np.float64], last: Command) -> bool:
         """Whether a joint is where its encoder has it, and its drive is too weak: by a wrong angle of the standing leg
