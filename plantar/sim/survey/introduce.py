@@ -204,7 +204,7 @@ def introduce(
         report(0.8, "walking with shorter steps")
         first = file.read_text(encoding="utf-8")
         stated = replace(wishes, leg=round(_SHORTER * fitted.body.leg, 4))
-        shorter = fit_gait(draft, survey.gains, fitted.rotors, stated)
+        shorter = fit_gait(draft, survey.gains, fitted.rotors, stated, fitted.known)
         text = robot_text(survey, shorter, shoes.notes, shoes.mass is not None)
         again = _walked(file, text, trials, fitted.body)
         if all(trial.completed for trial in again):
