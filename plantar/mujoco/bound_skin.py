@@ -244,15 +244,15 @@ class BoundSkin:
             Force (..., n, 3) on each taxel in N and wrench (..., 6), sole frame.
 
         Raises:
-            InputError: If sizes are not the model's.
+            InputError: If sizes are not the model's, or a number is not finite.
         """
         kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
-        given = array(states, "states", (..., mujoco.mj_stateSize(self.model, kind)))
+        given = array(states, "states", (..., mujoco.mj_stateSize(self.model, kind)), finite=True)
         lead = given.shape[:-1]
         flat = np.ascontiguousarray(given.reshape(-1, given.shape[-1]))
         control = None
         if controls is not None:
-            control = array(controls, "controls", (*lead, self.model.nu)).reshape(len(flat), self.model.nu)
+            control = array(controls, "controls", (*lead, self.model.nu), finite=True).reshape(len(flat), self.model.nu)
         vectors = np.empty((len(flat), len(self), 3))
         wrenches = np.empty((len(flat), 6))
         threads = min(integer(threads, "threads", 1), max(len(flat), 1))

@@ -119,6 +119,8 @@ class Skin:
         self._check_patch()
         self.partial = partial
         self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
+        if isinstance(proximity, bool):  # a number elsewhere, where it would be a range of one metre
+            raise InputError(f"proximity is {proximity}; allowed: the sensors' range in m, or None")
         self.proximity = None if proximity is None else positive(proximity, "proximity range", "m")
         self.slip = bool(slip)
         self.layer = None if layer is None else instance(layer, ElasticLayer, "layer")

@@ -224,6 +224,8 @@ def test_many_and_rollout_are_what_single_readings_are(make_box):
     assert np.array_equal(feel.rollout(np.array(states), np.zeros((6, 0)))[0], again.reshape(one.shape))
     with pytest.raises(InputError, match="states: shape"):
         feel.rollout(np.zeros((2, 3)))
+    with pytest.raises(InputError, match="states"):
+        feel.rollout(np.where(np.arange(one.shape[0])[:, None] == 2, np.nan, np.array(states)))
 
 
 def test_a_diverged_state_is_not_in_the_air(make_box):

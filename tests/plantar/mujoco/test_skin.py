@@ -91,6 +91,7 @@ def test_arguments_are_checked_when_it_is_made(tmp_path):
         ({"body": "a", "geoms": "b"}, InputError),
         ({"body": "a", "geoms": 3}, InputError),
         ({"body": "a", "proximity": 0.0}, InputError),
+        ({"body": "a", "proximity": True}, InputError),
         ({"body": "a", "layout": down}, LayoutError),
         ({"body": "a", "layout": tmp_path / "none.json"}, LayoutError),
         ({"body": "a", "layout": 3}, PlantarError),
