@@ -61,7 +61,8 @@ def wrapped_skin(
 
     `least_level`: force in N of all taxels from which they are active. RobotError: nothing there, or a strip.
     """
-    name = model.body(body).name
+    wanted = _Wanted(model.body(body).name, side, cell_area, least_level)
+    name = wanted.name
     surfaces = body_surfaces(model, body, geoms)
     outline = _drawn(polygon)
     reach = float(np.abs(_bounds(surfaces)).max())
@@ -82,14 +83,23 @@ def wrapped_skin(
     left = left_body(model, body, surfaces)
     if left is not None:
         try:
-            laid = _brought(model, name, left, chosen, rotation, ahead, side, cell_area, least_level)
+            laid = _brought(model, left, wanted, chosen, rotation, ahead)
         except RobotError:  # both sides refuse, this one by its own places where it can
-            _laid(model, body, name, surfaces, chosen, rotation, side, cell_area, least_level)
+            _laid(model, body, surfaces, wanted, chosen, rotation)
             raise
     else:
-        laid = _laid(model, body, name, surfaces, chosen, rotation, side, cell_area, least_level)
+        laid = _laid(model, body, surfaces, wanted, chosen, rotation)
     kernel = _kernel(model, geoms, surfaces, laid.layout, laid.radius, chosen, laid.position, rotation)
     return WrappedSkin(laid.layout, laid.position, rotation, laid.rings, kernel)
+
+
+class _Wanted(NamedTuple):
+    """What was asked for beside the region: the body's `name` in messages, others as of `wrapped_skin`."""
+
+    name: str
+    side: Side | None
+    cell_area: float | None
+    least_level: float
 
 
 class _Laid(NamedTuple):
@@ -104,18 +114,15 @@ class _Laid(NamedTuple):
 def _laid(
     model: Any,
     body: int,
-    name: str,
     surfaces: list[GeomSurface],
+    wanted: _Wanted,
     chosen: Region,
     rotation: NDArray[np.float64],
-    side: Side | None,
-    cell_area: float | None,
-    least_level: float,
 ) -> _Laid:
-    """Lay cells, of a skin of the body called `name`, on the chosen part of a body's own surfaces."""
+    """Lay cells on the chosen part of a body's own surfaces."""
     out = chosen.outward
-    where = f"the skin of body '{name}'"
-    own_side = side or _side_of(model, body)
+    where = f"the skin of body '{wanted.name}'"
+    own_side = wanted.side or _side_of(model, body)
     is_right = own_side == "right"
     low, high = _bounds(surfaces)
     first = float((high - low).max()) / _COARSE
@@ -124,7 +131,7 @@ def _laid(
     except RobotError:  # a small region may lie between the samples
         coarse = _chosen(surfaces, max(0.1 * first, _FINEST), is_right, chosen, where)
     total = float(coarse.areas.sum())
-    area = fitted_cell_area(total) if cell_area is None else cell_area
+    area = wanted.cell_area or fitted_cell_area(total)
     pitch = max(width_of(area) / 8.0, _FINEST)
     pitch = max(pitch, math.sqrt(6.0 * float(np.prod(np.sort(high - low)[1:])) / _MOST_SAMPLES))
     try:
@@ -139,27 +146,24 @@ def _laid(
         position = np.zeros(3)
         if out is not None:
             position = float((cells.positions @ out).max()) * out
-        layout, rings = _curved_layout(name, own_side, cells, position, rotation, least_level)
+        layout, rings = _curved_layout(own_side, cells, wanted, position, rotation)
         return _Laid(layout, position, rings, cells.radius)
     outline, height = flat
     refuse_strip(*_long_and_thin(outline), width_of(area), where)
-    level = flat_layout(name, own_side, outline, area, least_level)
+    level = flat_layout(wanted.name, own_side, outline, area, wanted.least_level)
     rings = [np.column_stack([level.cell_polygon(i), np.zeros(len(level.corners[i]))]) for i in range(len(level))]
     return _Laid(level, height * np.asarray(out), rings, 1.25 * width_of(level.cell_area))
 
 
 def _brought(
     model: Any,
-    name: str,
     left: LeftBody,
+    wanted: _Wanted,
     chosen: Region,
     rotation: NDArray[np.float64],
     ahead: NDArray[np.float64] | None,
-    side: Side | None,
-    cell_area: float | None,
-    least_level: float,
 ) -> _Laid:
-    """The left body's cells on the mirrored part of its surfaces, mirrored; arguments of the right body `name`."""
+    """The left body's cells on the mirrored part of its surfaces, mirrored; arguments of the right body."""
     way = left.way
     out = None if chosen.outward is None else way @ chosen.outward
     its_rotation = _axes(out, None if ahead is None else way @ ahead)
@@ -173,8 +177,8 @@ def _brought(
         np.ascontiguousarray(chosen.outline @ turn[:2, :2]),
         np.ascontiguousarray(its_rotation[:, :2].T),
     )
-    its_side = None if side is None else other_side(side)
-    laid = _laid(model, left.body, name, left.surfaces, region, its_rotation, its_side, cell_area, least_level)
+    its = wanted if wanted.side is None else wanted._replace(side=other_side(wanted.side))
+    laid = _laid(model, left.body, left.surfaces, its, region, its_rotation)
     layout = laid.layout
     places = layout.positions @ turn.T
     turns = _frames(layout.rotations[:, :, 2] @ turn.T)
@@ -343,28 +347,27 @@ def _with_level(layout: SoleLayout, least_level: float) -> SoleLayout:
 
 
 def _curved_layout(
-    name: str,
     side: Side,
     cells: SurfaceCells,
+    wanted: _Wanted,
     position: NDArray[np.float64],
     rotation: NDArray[np.float64],
-    least_level: float,
 ) -> tuple[SoleLayout | SkinPatch, list[NDArray[np.float64]]]:
     """Cells in the patch's frame: a sole's layout if all look its way, else a link's patch."""
     places = (cells.positions - position) @ rotation
     inward = -cells.normals @ rotation
     turns = _frames(inward)
     rings = [(ring - position) @ rotation for ring in cells.rings]
-    level = min(DEFAULT_THRESHOLDS["force"], least_level / len(places))
+    level = min(DEFAULT_THRESHOLDS["force"], wanted.least_level / len(places))
     if not (inward[:, 2] > _LOOKS).all():
-        return SkinPatch(name, name, places, turns, cells.areas, level, 0.0, cells.neighbours), rings
+        return SkinPatch(wanted.name, wanted.name, places, turns, cells.areas, level, 0.0, cells.neighbours), rings
     import shapely
 
     flat = [shapely.Polygon(ring[:, :2]) for ring in rings]
     hull = shapely.union_all([f.convex_hull for f in flat]).convex_hull
     starts = np.cumsum([0, *(len(ring) for ring in rings)])
     layout = SoleLayout(
-        name=name,
+        name=wanted.name,
         side=side,
         positions=places,
         rotations=turns,
@@ -380,7 +383,7 @@ def _curved_layout(
         cell_shape="polygon",
         cell_area=float(np.median(cells.areas)),
     )
-    return _with_level(layout, least_level), rings
+    return _with_level(layout, wanted.least_level), rings
 
 
 def _frames(inward: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,12 +7,10 @@ next swing would leave the body without a foot, and it falls onto the one that i
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick
+from plantar.gait.propose.step_timing import LONGEST_DOUBLE
 
 # chosen: beats by which the double support grows at a time: 50 ms on h1, in which a foot comes down by a centimetre
 _WAITS = 0.202
-# derived: single supports that it lasts in all: as `StepTimingRules.longest_double`; a foot that found no ground by
-# then finds none
-_LONGEST = 2.5
 
 
 class LateFoot:
@@ -35,6 +33,6 @@ class LateFoot:
         # derived: within the next tick
         if phase.end - tick.time > 1.5 * self._period:
             return None
-        if phase.end - phase.start > _LONGEST * tick.plan.schedule.timing.single_support:
+        if phase.end - phase.start > LONGEST_DOUBLE * tick.plan.schedule.timing.single_support:
             return None
         return PlanChange("foot not down yet", phase.step, longer=self._waits, resets=True)

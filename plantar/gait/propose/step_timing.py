@@ -21,6 +21,9 @@ from plantar.gait.propose.proposer import Pendulum, Priority, Tick
 PEAK = 5.774
 """Largest acceleration of a minimum-jerk motion over its way and time. Nature: 10 / sqrt(3) way / time^2."""
 
+LONGEST_DOUBLE = 2.5
+"""Longest double support, as a share of a single one. Chosen: a foot that found no ground by then finds none."""
+
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
     """When a support's end moves.
@@ -39,8 +42,7 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
     least_left: float = fixed(0.809, "beat")
     # Largest of a foot that is hurried in m/s^2; derived: as of step adjustment
     acceleration: float = fixed(0.816, "leg/beat^2")
-    # chosen: Longest double support, as a share of a single one; none ends sooner, for feet have to take over
-    longest_double: float = fixed(2.5, "1")
+    longest_double: float = fixed(LONGEST_DOUBLE, "1")  # none ends sooner, for feet have to take over
     pause: float = share(0.162, "beat", 0, 5)  # chosen: 40 ms, eight ticks
 
 
