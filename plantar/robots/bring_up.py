@@ -30,4 +30,5 @@ def bring_up_of(
     start = controller.schedule.phases[0].end - 1.0
     stand = standing_command(feet, controller.plan, layouts, settings.mass * GRAVITY, settings.com_height, start)
     names = (*robot.legs["left"].joints, *robot.legs["right"].joints)
-    return BringUp(stand, centers, controller.omega, layouts, legs, names, settings.mass, settings.period)
+    imu = legs.place_of(robot.imu_site)
+    return BringUp(stand, centers, controller.omega, layouts, legs, imu, names, settings.mass, settings.period)

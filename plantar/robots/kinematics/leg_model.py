@@ -141,6 +141,11 @@ class LegModel:
         mujoco.mj_comPos(self.model, data)
         return self._posture
 
+    def place_of(self, site: str) -> NDArray[np.float64]:
+        """Place (3,) in m of a `site` of the torso in the base frame."""
+        mujoco.mj_kinematics(self.model, self._probe)
+        return np.array(self._probe.site(site).xpos)
+
     def sole_motions(self, joint_positions: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """How the soles move with the joints (see `plantar.gait.estimate.estimator.MovingKinematics`)."""
         self.live_posture(joint_positions)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from plantar.common.sides import Side
 from plantar.gait.command import Command, Sensors
 from plantar.gait.estimate.estimator import Posture
+from plantar.gait.safety.bring_up.body_motion import BodyMotion, body_motion
 from plantar.gait.safety.bring_up.delay_checks import check_delays, joint_delay
 from plantar.gait.safety.bring_up.finding import Finding
 from plantar.gait.safety.bring_up.imu_checks import check_imu
@@ -60,6 +61,7 @@ class BringUp:
         omega: Pendulum's in rad/s.
         layouts: Of each side.
         legs: Solved for what is commanded.
+        imu: Its place (3,) in m in the base's frame.
         names: Of the joints.
         mass: Robot's in kg.
         period: Of control in s.
@@ -79,6 +81,7 @@ class BringUp:
         omega: float,
         layouts: Mapping[Side, SoleLayout],
         legs: BringUpLegs,
+        imu: NDArray[np.float64],
         names: Sequence[str],
         mass: float,
         period: float,
@@ -86,6 +89,7 @@ class BringUp:
         self._motion = BringUpMotion(stand, vrps, omega)
         self._width = float(np.linalg.norm(vrps["left"] - vrps["right"]))
         self._legs = legs
+        self._imu = imu
         self._names = tuple(names)
         self._weight = mass * GRAVITY
         self._period = period
@@ -119,15 +123,14 @@ class BringUp:
         if self.ended:
             return self._last
         time = self._ticks * self._period
-        command, vrp, turn = self._motion.at(time)
+        command = self._motion.at(time)
         self._legs.follow(
             command.com,
             command.rotation_torso,
             {side: foot.position for side, foot in command.feet.items()},
             {side: foot.rotation for side, foot in command.feet.items()},
         )
-        acceleration = self._motion.acceleration(time)
-        missing = self._trace.add(time, sensors, self._legs.joints, vrp, turn, acceleration)
+        missing = self._trace.add(time, sensors, self._legs.joints)
         if missing is not None:
             self._missed += 1
             if self._missed * self._period > _PATIENCE:
@@ -152,15 +155,17 @@ class BringUp:
     def _judge_leans(self) -> None:
         trace = self._trace.table()
         soles = check_standing_soles(trace, self._weight)
-        imu, gyro = check_imu(trace)
         late = joint_delay(trace)
         joints = check_joints(trace, self._names, late)
+        # Encoders show what soles and IMU have to measure. With wrong ones no more than the torso's turns are known.
+        motion = self._moved(trace, "expected" if joints else "joints")
+        imu, gyro = check_imu(trace, motion, commanded=bool(joints))
         found = [*_clock(trace, self._period), *imu, *joints, *soles]
         if not joints:
             found += check_delays(late, None if imu else gyro, self._period)
             found += check_planes(trace, self._legs.posture, level=not imu)
-        if not any("silent" in finding.cause for finding in soles):
-            found += check_leaning_soles(trace)
+            if not any("silent" in finding.cause for finding in soles):
+                found += check_leaning_soles(trace, motion)
         if found:
             self._refuse(found)
             return
@@ -174,13 +179,16 @@ class BringUp:
     def _judge_shifts(self) -> None:
         trace = self._trace.table()
         shifted = {name: rows[trace["time"] >= LEANED] for name, rows in trace.items()}
-        found = check_unloaded_soles(shifted, self._weight, self._width)
+        found = check_unloaded_soles(shifted, self._moved(shifted, "joints"), self._weight, self._width)
         if found:
             self._refuse(found)
             return
         self.ended = True
         self.passed = True
         self.stage = "passed"
+
+    def _moved(self, trace: Mapping[str, NDArray[np.float64]], joints: str) -> BodyMotion:
+        return body_motion(trace[joints], self._legs.posture, self._imu, self._period)
 
     def _refuse(self, findings: Sequence[Finding]) -> None:
         if not self.ended:

@@ -7,20 +7,25 @@ from numpy.typing import NDArray
 
 from plantar.gait.safety.bring_up.finding import Finding
 
-_LATE = 0.15  # s by which angles follow commands; drawn plants with a quarter of the stiffness have 0.1
-_APART = 0.02  # s between encoders and gyro; drawn plants have 0.005
+# s by which angles follow commands: measured: 0.15 of OP3 with a quarter of its stiffness, the least of level 3, which
+# 20 % less refuses; 20 % more refuses no other late encoders, which the gyro shows
+_LATE = 0.18
+_APART = 0.02  # s between encoders and gyro; measured: 183 drawn plants of ten robots have 0.005 at most
 
 MOST_LATE = 0.3
 """Delay in s up to which is tried."""
 
 
 def check_delays(joints: int, gyro: int | None, period: float) -> list[Finding]:
-    """Findings by the delays of `joints` and `gyro`, in ticks of a `period` in s; None where the gyro is silent."""
+    """Findings by how late `joints` follow what is commanded, and a `gyro` them, in ticks of a `period` in s.
+
+    None where the gyro is silent.
+    """
     found: list[Finding] = []
     if joints * period > _LATE:
         text = f"angles follow what is commanded by {joints * period:.3f} s"
         found.append(Finding("encoders or drives late", text, f"{_LATE} s"))
-    apart = 0.0 if gyro is None else (joints - gyro) * period
+    apart = 0.0 if gyro is None else -gyro * period
     if abs(apart) > _APART:
         late = "encoders" if apart > 0.0 else "IMU"
         other = "IMU" if apart > 0.0 else "encoders"

@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.safety.bring_up.axes import described, scale_of, signed_permutation
+from plantar.gait.safety.bring_up.body_motion import BodyMotion, smoothed
 from plantar.gait.safety.bring_up.delay_checks import MOST_LATE, period_of
 from plantar.gait.safety.bring_up.finding import Finding
 from plantar.gait.safety.bring_up.motion import STOOD
-from plantar.gait.safety.bring_up.response import delayed_response
+from plantar.gait.safety.bring_up.response import delayed_response, response
 from plantar.mechanics.lip import GRAVITY
 
 _SPAN = 0.025  # s over which turns are differenced and readings averaged
@@ -21,8 +22,12 @@ _BIAS = 0.1  # rad/s of a gyro at rest; drawn ones have 0.0075
 Trace = Mapping[str, NDArray[np.float64]]
 
 
-def check_imu(trace: Trace) -> tuple[list[Finding], int | None]:
-    """Findings of the IMU by the rows of standing, leaning and turning, and the gyro's delay in ticks."""
+def check_imu(trace: Trace, motion: BodyMotion, *, commanded: bool = False) -> tuple[list[Finding], int | None]:
+    """Findings of the IMU by the rows of standing, leaning and turning, and the gyro's delay in ticks.
+
+    The delay is that after the `motion`; None where the gyro is silent. A `commanded` motion is not what encoders show:
+    the body sways besides, so that the accelerometer's axes are not checked.
+    """
     rest = trace["time"] < STOOD
     pull = trace["accelerometer"][rest].mean(axis=0)
     size = float(np.linalg.norm(pull))
@@ -33,11 +38,11 @@ def check_imu(trace: Trace) -> tuple[list[Finding], int | None]:
     elif not 0.8 * GRAVITY < size < 1.2 * GRAVITY:
         cause = "accelerometer silent" if size < 0.1 else "accelerometer in another unit"
         found.append(Finding(cause, f"it reads {size:.4g} at rest", allowed))
-    if size < 0.1:
-        findings, _, late = _gyro(trace, None)
+    if size < 0.1 or commanded:
+        findings, _, late = _gyro(trace, motion, None)
         return found + findings, late
-    accelerometer = _accelerometer_axes(trace, pull / size, GRAVITY / size)
-    findings, gyro, late = _gyro(trace, accelerometer)
+    accelerometer = _accelerometer_axes(trace, motion, pull / size, GRAVITY / size)
+    findings, gyro, late = _gyro(trace, motion, accelerometer)
     found += findings
     if not np.array_equal(accelerometer, np.eye(3)):
         if gyro is not None and np.array_equal(accelerometer, gyro):
@@ -48,36 +53,36 @@ def check_imu(trace: Trace) -> tuple[list[Finding], int | None]:
     return found, late
 
 
-def _accelerometer_axes(trace: Trace, up: NDArray[np.float64], gain: float) -> NDArray[np.float64]:
+def _accelerometer_axes(trace: Trace, motion: BodyMotion, up: NDArray[np.float64], gain: float) -> NDArray[np.float64]:
     """Signed permutation (3, 3) from the torso's axes to the accelerometer's.
 
-    Gravity at rest shows z; leans and tilts show x and y: f = a + g (-pitch, roll) to first order.
+    Gravity at rest shows z; leans and tilts show x and y.
     """
-    turn = trace["turn"]
-    moved = trace["acceleration"]
-    expected = np.column_stack([moved[:, 0] - GRAVITY * turn[:, 1], moved[:, 1] + GRAVITY * turn[:, 0]])
-    response, _ = delayed_response(expected, gain * trace["accelerometer"], MOST_LATE, period_of(trace), 0.02)
-    return signed_permutation(np.column_stack([response, up]))
+    measured = gain * smoothed(trace["accelerometer"], period_of(trace))
+    return signed_permutation(np.column_stack([response(motion.force, measured), up]))
 
 
 def _gyro(
-    trace: Trace, accelerometer: NDArray[np.float64] | None
+    trace: Trace, motion: BodyMotion, accelerometer: NDArray[np.float64] | None
 ) -> tuple[list[Finding], NDArray[np.float64] | None, int | None]:
     """Findings of the gyro, the signed permutation (3, 3) of its axes, and its delay in ticks; None where silent."""
-    turn = trace["turn"]
+    turn = motion.turn
     period = period_of(trace)
     span = max(1, round(_SPAN / period))
     rate = (turn[span:] - turn[:-span]) / (span * period)
     mean = np.lib.stride_tricks.sliding_window_view(trace["gyro"], span, axis=0)[:-1].mean(axis=-1)
-    response, late = delayed_response(rate, mean, MOST_LATE, period)
-    size = float(np.linalg.norm(response, axis=1).max())
-    allowed = f"turns as commanded, in rad/s, by {_GAIN[0]} to {_GAIN[1]} times"
+    # Sooner than the encoders, too
+    sooner = round(MOST_LATE / period)
+    axes_of, late = delayed_response(rate[sooner:], mean[:-sooner], 2.0 * MOST_LATE, period)
+    late -= sooner
+    size = float(np.linalg.norm(axes_of, axis=1).max())
+    allowed = f"turns as the encoders show, in rad/s, by {_GAIN[0]} to {_GAIN[1]} times"
     if size < _SILENT:
         return [Finding("gyro silent", f"it reports {size:.2f} times the torso's turns", allowed)], None, None
-    axes = signed_permutation(response)
-    gain = scale_of(response, axes)
+    axes = signed_permutation(axes_of)
+    gain = scale_of(axes_of, axes)
     found: list[Finding] = []
-    for name, column in zip("xyz", np.abs(response).max(axis=0), strict=True):
+    for name, column in zip("xyz", np.abs(axes_of).max(axis=0), strict=True):
         if column < _SILENT * gain:
             text = f"turns about {name} appear as {column:.2f} times as large"
             found.append(Finding(f"gyro does not report turns about {name}", text, allowed))

@@ -18,11 +18,11 @@ _SHARE = 0.85  # of the weight on one foot at most; what the other keeps holds r
 STOOD = 0.5
 """End in s of standing still."""
 
-FORWARD = (0.5, 1.85)
-"""Begin and end in s of leaning forward and back, with roll and yaw."""
+ROLLED = 1.2
+"""End in s of the torso's roll, after which the ZMP to the left is that of a body that does not turn."""
 
-SIDEWAYS = (1.85, 3.2)
-"""Begin and end in s of leaning left and right, with pitch."""
+PITCHES = 2.0
+"""Begin in s of its pitch, before which the ZMP forward is likewise."""
 
 LEANED = 3.2
 """End in s of leaning and turning."""
@@ -38,9 +38,9 @@ _LEANS = (
 # And of the weight beyond half that the left foot carries
 _SHIFTS = ((3.2, 0), (3.7, 1), (4.0, 1), (4.6, -1), (4.9, -1), (5.3, 0), (5.95, 0))
 _RETURN = (5.2, 5.9)  # in which what the CoM would still be off at the end is taken back
-_ROLL = (0.5, 1.2)
+_ROLL = (0.5, ROLLED)
 _YAW = (1.2, 1.9)
-_PITCH = (2.0, 2.9)
+_PITCH = (PITCHES, 2.9)
 
 
 class BringUpMotion:
@@ -73,8 +73,8 @@ class BringUpMotion:
         self._plan = VrpPlan([time for time, _ in _SHIFTS], points, self._omega, begin)
         self._left_over = self._plan.at(UNLOADED).com - self._middle
 
-    def at(self, time: float) -> tuple[Command, NDArray[np.float64], NDArray[np.float64]]:
-        """Command at a time in s, VRP less that of standing (2,) in m, and the torso's turn (3,) in rad, its frame."""
+    def at(self, time: float) -> Command:
+        """Command at a time in s."""
         reference = self._plan.at(time)
         com = reference.com - _ramp(time, _RETURN) * self._left_over
         moved = reference.vrp - self._middle
@@ -89,19 +89,13 @@ class BringUpMotion:
             )
             for side in SIDES
         }
-        command = self._stand.changed(
+        return self._stand.changed(
             com=np.array([*com, self._stand.com[2]]),
             rotation_torso=self._stand.rotation_torso @ rotation_from_vector(turn),
             feet=feet,
             reference=reference,
             zmp_desired=reference.vrp,  # the plan's own: nothing is balanced yet, which motors go by
         )
-        axes = np.vstack([self._forward, self._left])
-        return command, axes @ moved, turn
-
-    def acceleration(self, time: float) -> NDArray[np.float64]:
-        """CoM's (2,) in m/s^2 at a time in s, forward and to the left."""
-        return np.vstack([self._forward, self._left]) @ self._plan.at(time).com_acceleration
 
 
 def _bump(time: float, span: tuple[float, float]) -> float:

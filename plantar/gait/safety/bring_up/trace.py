@@ -24,21 +24,12 @@ class Trace:
         self._joints = joints
         self._rows: list[NDArray[np.float64]] = []
 
-    def add(
-        self,
-        time: float,
-        sensors: Sensors,
-        expected: NDArray[np.float64],
-        vrp: NDArray[np.float64],
-        turn: NDArray[np.float64],
-        acceleration: NDArray[np.float64],
-    ) -> str | None:
-        """Add a tick at a `time` in s of the motion; returns what of its `sensors` cannot be read, or None.
+    def add(self, time: float, sensors: Sensors, expected: NDArray[np.float64]) -> str | None:
+        """Add a tick at a `time` in s of the motion, of commanded joint angles `expected` (k,) in rad.
 
-        Commanded are `expected` joint angles (k,) in rad, `vrp` (2,) in m, the torso's `turn` (3,) in rad and the CoM's
-        `acceleration` (2,) in m/s^2.
+        Returns what of its `sensors` cannot be read, or None.
         """
-        row = [np.array([time]), np.array([_number(getattr(sensors, "time", None))]), expected, vrp, turn, acceleration]
+        row = [np.array([time]), np.array([_number(getattr(sensors, "time", None))]), expected]
         for name, size in (("joint_positions", self._joints), ("gyro", 3), ("accelerometer", 3)):
             value = _vector(getattr(sensors, name, None), size)
             if value is None:
@@ -64,7 +55,7 @@ class Trace:
 
     def table(self) -> dict[str, NDArray[np.float64]]:
         """Arrays by name, a row a tick."""
-        widths = {"time": 1, "clock": 1, "expected": self._joints, "vrp": 2, "turn": 3, "acceleration": 2}
+        widths = {"time": 1, "clock": 1, "expected": self._joints}
         widths |= {"joints": self._joints, "gyro": 3, "accelerometer": 3}
         for side in SIDES:  # "reversed": by the taxels in reversed order
             widths |= {f"load_{side}": 1, f"center_{side}": 2, f"reversed_{side}": 2}
