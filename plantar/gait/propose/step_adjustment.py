@@ -100,6 +100,14 @@ class _Along(NamedTuple):
     moved: tuple[float, float]
 
 
+class _Nominal(NamedTuple):
+    """VRP (2,) in m over a step before its adjustments, and after the last of them."""
+
+    step: int
+    vrp: NDArray[np.float64]
+    adjusted: NDArray[np.float64]
+
+
 class _Choice(NamedTuple):
     """A footstep: time in s until it, move (x, y) in m, cost in m."""
 
@@ -149,6 +157,7 @@ class StepAdjustment:
         self._stands = -1
         self._foot: _Foot | None = None
         self._along: _Along | None = None
+        self._nominal: _Nominal | None = None
         self._absorbed: tuple[PlanView, Phase, NDArray[np.float64], float] | None = None  # of what, and in m
 
     def propose(self, tick: Tick) -> PlanChange | None:
@@ -278,7 +287,19 @@ class StepAdjustment:
             return None
         self._changed = tick.time
         self._adjusted = step
+        if self._nominal is not None:
+            self._nominal = self._nominal._replace(adjusted=tick.plan.vrp(step) + move)
         return _moved(tick.plan.foothold(step), step, move, "step adjusted", longer)
+
+    def _nominal_vrp(self, plan: PlanView, step: int) -> NDArray[np.float64]:
+        """VRP (2,) in m over a step without its adjustments (K 30); where something else moved it, that is nominal."""
+        vrp = plan.vrp(step)
+        known = self._nominal
+        # nature: floating point, far above a place's roundings
+        if known is None or known.step != step or math.dist(known.adjusted, vrp) > 1e-9:
+            known = _Nominal(step, vrp, vrp)
+        self._nominal = known
+        return known.vrp
 
     def _landed(self, tick: Tick, side: Side) -> PlanChange | None:
         """End the single support with an adjusted step's landing, and its place."""
@@ -370,7 +391,7 @@ class StepAdjustment:
                 stance=plan.stance_vrp(step),
                 elapsed=begun,
                 target=(*vrp.tolist(), begun + left),
-                nominal=(*vrp.tolist(), usual),
+                nominal=(*self._nominal_vrp(plan, step).tolist(), usual),
                 region=region + (vrp - target),
                 shortest=begun + soonest,
                 longest=begun + latest,

@@ -228,7 +228,7 @@ class Footing:
             expected = NO_PUSH
             if push is not NO_PUSH or self._push.acts:  # else there is none, and none is expected
                 expected = self._push.update(push / omega**2)
-            if self._push.acts and phase.swing:
+            if self._push.acts and (phase.swing or self._regulates):  # K 20 has it in double support, too
                 offset = self._push.mean(max(0.0, phase.end - time))
                 # xi' = w u_w, summed over the time that the low pass remembers.
                 pushed = expected * (omega * self._settings.push_expected.time_constant)

@@ -13,6 +13,7 @@ from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose import step_adjustment
 from plantar.gait.propose.proposer import Pendulum, Tick
 from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
 from plantar.gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
@@ -196,6 +197,30 @@ def test_a_confident_robot_moves_its_steps_less(pushed):
     moves = [proposed(tick, confidence=c, price_place=2.0) for c in (0.0, 1.0)]
     sizes = [0.0 if change is None else math.hypot(*change.shift) for change in moves]
     assert sizes[1] < sizes[0]
+
+
+def test_the_nominal_place_is_that_before_the_steps_own_adjustments(pushed, monkeypatch):
+    """K 30: u_n stays where the walk had it, u_s is the last tick's; what something else moves is nominal."""
+    seen = []
+    solve = step_adjustment.solve_ssp
+    monkeypatch.setattr(step_adjustment, "solve_ssp", lambda problem, w: seen.append(problem) or solve(problem, w))
+    steps = adjustment(method="ssp_opt", confidence=0.5)
+    plan, tick = pushed((0.1, 0.0))
+    step = tick.phase.step
+    first = plan.view.vrp(step)
+    plan.apply(steps.propose(tick), NOW, tick.pendulum.zmp_region)
+    moved = plan.view.vrp(step)
+    assert math.dist(first, moved) > 0.02
+    steps.propose(tick.changed(time=NOW + 0.1, plan=plan.view, phase=plan.schedule.at(NOW + 0.1)))
+    place = plan.view.foothold(step)
+    plan.apply(PlanChange("refused", step, replace(place, y=place.y + 0.1)), NOW, tick.pendulum.zmp_region)
+    steps.propose(tick.changed(time=NOW + 0.2, plan=plan.view, phase=plan.schedule.at(NOW + 0.2)))
+    assert [p.nominal[:2] for p in seen] == [
+        pytest.approx(first),
+        pytest.approx(first),
+        pytest.approx(plan.view.vrp(step)),
+    ]
+    assert seen[1].target[:2] == pytest.approx(moved)
 
 
 def test_a_foot_in_flight_gets_farther_its_way(pushed):

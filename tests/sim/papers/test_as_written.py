@@ -3,6 +3,7 @@
 from collections import Counter
 from typing import Any
 
+import numpy as np
 import pytest
 
 from plantar.gait.balance import dcm_regulation
@@ -41,8 +42,24 @@ def counted(monkeypatch: pytest.MonkeyPatch, *settings: str) -> Counter[str]:
 
 
 def test_k_as_written_calls_all_of_k(monkeypatch):
-    calls = counted(monkeypatch, "paper=K")
+    # The 40 N s that K allows at most: what is expected of less keeps u* in double support within the sole.
+    calls = counted(monkeypatch, "paper=K", "push.dv=0.465")
     assert set(calls) == set(CALLED), calls
+
+
+def test_k_as_written_expects_a_push_to_stay_in_both_supports(monkeypatch):
+    """K 18-20: u_w is in the DCM of single and of double support."""
+    expected = {"single": 0.0, "double": 0.0}
+    for name in expected:
+        plain = getattr(dcm_regulation, f"{name}_support_vrp")
+
+        def notes(*args: Any, _name: str = name, _plain: Any = plain) -> Any:
+            expected[_name] = max(expected[_name], float(np.hypot(*args[-2])))
+            return _plain(*args)
+
+        monkeypatch.setattr(dcm_regulation, f"{name}_support_vrp", notes)
+    Simulation(load_scene("push-step", [*SHORT, "paper=K"]), 1).run()
+    assert min(expected.values()) > 1e-3, expected  # m: a push of 26 N s of 86 kg moves u_w by more than 1 mm
 
 
 @pytest.mark.long
