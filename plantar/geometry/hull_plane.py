@@ -5,12 +5,15 @@ from numpy.typing import NDArray
 
 from plantar.common.optional_library import optional_library
 
+_ROUNDED = np.cos(np.radians(5.0))  # of a sole's own slopes
+
 
 def hull_plane(
     points: NDArray[np.float64], highest: float, same: float, faces: int
 ) -> tuple[NDArray[np.float64], float]:
     """Largest plane of the convex hull of points (n, 3).
 
+    With planes that are off by up to 5 degrees it is the largest: a rounded sole is larger than the chamfer beside it.
     Returns outward normal (3,) and area; straight down and 0 without one.
 
     Example:
@@ -29,7 +32,10 @@ def hull_plane(
     normal = hull.equations[:, :3]
     area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     area[normal[:, 2] > highest] = 0.0
-    planes = [normal @ normal[i] > same for i in np.argsort(-area, kind="stable")[:faces]]
+    largest = np.argsort(-area, kind="stable")[:faces]
+    along = [normal @ normal[i] for i in largest]
+    around = max(along, key=lambda cosine: float(area[cosine > _ROUNDED].sum())) > _ROUNDED
+    planes = [cosine > same for cosine, i in zip(along, largest, strict=True) if around[i]]
     best = max(planes, key=lambda plane: float(area[plane].sum()))
     if not area[best].any():
         return down, 0.0
