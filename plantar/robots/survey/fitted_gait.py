@@ -11,12 +11,19 @@ from numpy.typing import NDArray
 
 from plantar.common.settings.body_scale import BodyScale
 from plantar.common.sides import SIDES
+from plantar.errors import RobotError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.robots.kinematics.body import body_of, pitching_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
-from plantar.robots.survey.first_posture import bent_posture, least_stance, posture_height, stance_width
+from plantar.robots.survey.first_posture import (
+    bent_posture,
+    knees_ahead,
+    least_stance,
+    posture_height,
+    stance_width,
+)
 from plantar.robots.survey.plan_reach import PlanReach, Walked, missed_aside, plan_reach, settled
 from plantar.robots.survey.servo_gains import CHATTERS, DAMPED, JointInertia, joint_inertia, servo_gains
 from plantar.robots.survey.step_search import HELD, QUICK_STEPS, SPARE, TURN, best_steps, straight_walk
@@ -101,10 +108,29 @@ def fit_gait(
     in N m s/rad of each leg joint, or empty; `rotors`: assumed rotor inertia in kg m^2 about each leg joint, or None;
     `wishes`: their height and stance are taken as they are; `known`: of an earlier fit, whose legs differ in rotors
     alone: how they move does not depend on these.
+
+    Knees bend the shank back. Where that leaves no steps, they bend it ahead, as a bird's do.
     """
+    try:
+        return _fit_gait(draft, gains, rotors, wishes, known, ahead=False)
+    except RobotError as error:
+        try:
+            return _fit_gait(draft, gains, rotors, wishes, known, ahead=True)
+        except RobotError:
+            raise error from None
+
+
+def _fit_gait(
+    draft: Robot,
+    gains: Sequence[tuple[float, float]],
+    rotors: Array | None,
+    wishes: Wishes,
+    known: Mapping[tuple[Hashable, ...], Any],
+    ahead: bool,
+) -> FittedGait:
     legs = build_leg_model(draft)
     legs.known.update(known)
-    robot = replace(draft, posture=bent_posture(draft, legs))
+    robot = replace(draft, posture=bent_posture(draft, legs, ahead))
     body = body_of(robot, legs.model)
     notes: list[str] = []
     robot = replace(robot, stance_width=wishes.stance or stance_width(robot, legs))
@@ -127,6 +153,11 @@ def fit_gait(
             f"without ankle roll soles come off level by up to {math.degrees(reach.roll):.0f} degrees: the robot rocks "
             "from foot to foot in short quick steps, and cannot wait on one of them, so that it hits a slab that it "
             "does not know of (--trials flat,stone,push leaves that out; an ankle that rolls helps)"
+        )
+    if knees_ahead(robot, legs.model):
+        notes.append(
+            "the knees bend the shank ahead, as a bird's do: their limits, or the hips', leave no steps with knees "
+            "that bend it back (where the robot's do, turn round the axes of the model's knees)"
         )
     if len(robot.posture["left"]) < _TURNING:
         notes.append("legs of four joints do not turn the feet: the robot walks straight ahead")

@@ -23,6 +23,7 @@ from plantar.robots.kinematics.leg_inertia import angular_momentum, leg_inertia
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.standing_posture import posture_of
 from plantar.robots.robot import Robot
+from plantar.robots.survey.first_posture import knees_ahead
 from plantar.robots.survey.servo_gains import floating_inertia
 
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
@@ -67,7 +68,7 @@ class PlanReach:
     Attributes:
         missed: Largest distance in m by which CoM or a standing sole misses its place, or a tenth of a swinging one's.
         low: How far in m a swinging foot stays below its path at most.
-        knee: Least bend of a knee in rad; negative backwards.
+        knee: Least bend of a knee in rad, the way the posture bends it; negative the other way.
         straightest: Time in s of that.
         spare: Least distance in rad of each joint of a carrying leg to its limits, over both legs.
         torque: Largest torque in N m of each joint, over both legs: to carry, against damping and inertia, and against
@@ -361,9 +362,10 @@ class _Probe:
             pitch = pitching_joints(robot, side, model, self._data)
             if len(pitch) >= 3:
                 self._pitch.append((pitch[0], pitch[-2], pitch[-1]))
+        self._way = -1.0 if knees_ahead(robot, model) else 1.0
 
     def knees(self, legs: LegModel) -> float:
-        """Least bend of a knee in rad, from thigh to shank about the torso's y axis."""
+        """Least bend of a knee in rad, from thigh to shank about the torso's y axis, the way the posture bends it."""
         self._data.qpos[:] = legs.configuration
         mujoco.mj_kinematics(self._model, self._data)
         across = self._data.xmat[self._torso, 1::3].tolist()
@@ -375,7 +377,7 @@ class _Probe:
             a, b, c = _square_to(axis, anchors[hip], anchors[knee])
             d, e, f = _square_to(axis, anchors[knee], anchors[ankle])
             around = [b * f - c * e, c * d - a * f, a * e - b * d]
-            bends.append(math.atan2(_dot(around, axis), a * d + b * e + c * f))
+            bends.append(self._way * math.atan2(_dot(around, axis), a * d + b * e + c * f))
         return min(bends, default=math.pi)
 
     def off(self, side: Side, position: Array) -> float:
