@@ -6,8 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.common.sides import Side
+from plantar.gait.contact.path_drift import PathDrift
+from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.foothold_rules import FootholdRules
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.layouts.layout import SoleLayout
 
@@ -17,41 +20,44 @@ _LEAST_OVER = 0.08
 
 _MOST_OVER = 0.5  # chosen: Share beyond which it is no foothold with an edge any more
 
-# chosen: Landings in a row of one foot, alike, by which a walk that bears partial footholds has drifted off its way:
-# one such foothold is a stone's shape.
-_DRIFT = 3
-
-_ALIKE = 0.08  # derived: Of a sole's width, by which the moves for them differ at most: half a row of taxels, and noise
-
 
 class EdgeBeside:
     """Moves footsteps onto ground that a landed foot saw.
 
     An edge cutting a share f off a sole of width w moves steps by f w / 2, since the ground may end at its other side,
-    too. In a drift it does not: steps move by f w, onto it.
+    too. In a drift it does not: it measures that by f w, and steps follow the ground.
 
-    `drop`: distance in m from the sole of absent ground; `largest`: largest move in m by one landing; `drift`: whether
-    steps move only for a drift: alike edges at a foot's last landings, none at the other's. A heading that is off
-    drifts on, so that each later landing at that edge moves steps again.
+    `rules`: largest move by one landing, and least in a drift; `drop`: distance in m from the sole of absent ground;
+    `drift` of the ground; None on ground that soles are expected to stand on whole.
     """
 
     priority = Priority.FOOTHOLD
 
-    def __init__(self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float, *, drift: bool = False) -> None:
+    def __init__(
+        self,
+        layouts: Mapping[Side, SoleLayout],
+        rules: FootholdRules,
+        drop: float,
+        drift: PathDrift | None = None,
+    ) -> None:
         self._places = {side: layout.positions[:, :2] for side, layout in layouts.items()}
+        self._rules = rules
         self._drop = drop
-        self._largest = largest
+        self._drift = drift
         self._proposed: PlanChange | None = None
         self._moved = (-1, 0.0)
-        self._seen: list[float] | None = [] if drift else None  # moves for the last landings, of both feet in turn
-        self._alike = _ALIKE * max(float(np.ptp(places[:, 1])) for places in self._places.values())
+        self._landed: NDArray[np.float64] | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Later steps, moved at touchdown."""
-        if self._proposed is not None and (was_applied(self._proposed, tick) or self._begun(self._proposed.step, tick)):
-            self._proposed = None
-        if tick.feet.touchdown:
-            self._proposed = self._off_the_edge(tick)
+        if self._proposed is not None:
+            applied = was_applied(self._proposed, tick)
+            if applied and self._drift is not None:
+                self._drift.moved(self._moved[1])
+            if applied or self._begun(self._proposed.step, tick):
+                self._proposed = None
+        if tick.feet.touchdown and tick.feet.side is not None:
+            self._proposed = self._off_the_edge(tick, tick.feet.side)
         return self._proposed
 
     @staticmethod
@@ -59,36 +65,35 @@ class EdgeBeside:
         """Whether the next step has begun."""
         return tick.phase.step > step and tick.phase.kind == PhaseKind.SINGLE_SUPPORT
 
-    def _off_the_edge(self, tick: Tick) -> PlanChange | None:
-        side = tick.feet.side
-        distance = tick.feet.distance
+    def _off_the_edge(self, tick: Tick, side: Side) -> PlanChange | None:
         phase = tick.phase
-        if side is None or distance is None:
-            return None
         step = phase.step if phase.swing is not None else phase.step - 1
-        across = self._across(side, distance)
-        if self._seen is not None:
-            across = self._drifted(self._seen, across)
-        across = min(self._largest, max(-self._largest, across))
+        foot = tick.place(side)
+        across = 0.0 if tick.feet.distance is None else self._across(side, tick.feet.distance)
+        if self._drift is not None:
+            across = self._followed(self._drift, tick, step, foot, across)
+        most = self._rules.largest_shift
+        across = min(most, max(-most, across))
         if not across or step + 1 >= tick.plan.count or self._begun(step, tick):
             return None
         last, way = self._moved
         self._moved = step, across
-        if step == last + 1 and across * way < 0.0:
+        if self._drift is None and step == last + 1 and across * way < 0.0:
             return None  # the ground of the other foot ends on its other side: there is no way between both
-        dx, dy = (across * tick.place(side).rotation_sole_to_world[:2, 1]).tolist()
+        dx, dy = (across * foot.rotation_sole_to_world[:2, 1]).tolist()
         return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
 
-    def _drifted(self, seen: list[float], across: float) -> float:
-        """Move onto the ground by the least of a foot's last landings where they mean a drift."""
-        seen.append(across)
-        del seen[: -(2 * _DRIFT - 1)]
-        own = seen[::-2]
-        other = seen[-2::-2]
-        alike = len(own) == _DRIFT and min(own) * max(own) > 0.0 and max(own) - min(own) <= self._alike
-        if not alike or any(other):
+    def _followed(self, drift: PathDrift, tick: Tick, step: int, foot: Footstep, across: float) -> float:
+        """Move in m to the left by which the next step lies on ground that drifts."""
+        here = foot.position[:2]
+        ahead = foot.rotation_sole_to_world[:2, 0]
+        way = 0.0 if self._landed is None else float((here - self._landed) @ ahead)
+        self._landed = here
+        drift.landed(tick.time, way, 2.0 * across if across else None)
+        if step + 1 >= tick.plan.count:
             return 0.0
-        return 2.0 * min(own, key=abs)
+        move = drift.offset(float((tick.plan.foothold(step + 1).position[:2] - here) @ ahead))
+        return move if abs(move) >= self._rules.least_move else 0.0
 
     def _across(self, side: Side, distance: NDArray[np.float64]) -> float:
         """Middle of its ground in m to the sole's left; 0 without an edge along a side."""

@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 
 from plantar.common.sides import SIDES, Side
 from plantar.gait.contact.ankle_limits import AnkleLimits
+from plantar.gait.contact.path_drift import PathDrift
 from plantar.gait.contact.support_strip import SupportStrip
 from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.estimate.identification import IdentificationRules
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.double_support_timing import DoubleSupportTiming
@@ -59,9 +61,9 @@ def proposers(
         StepInReach(limits, middles, s.foothold.least_move, s.body.leg),
     ]
     if s.compliance is not None:
-        edges = _NO_GROUND * s.ground_map.sensing_range, s.foothold.largest_shift
         found.append(LateFoot(s.body.beat, s.period))
-        found.append(EdgeBeside(layouts, *edges, drift=s.footholds != "off"))
+        drift = None if s.footholds == "off" else _drift(s, layouts)
+        found.append(EdgeBeside(layouts, s.foothold, _NO_GROUND * s.ground_map.sensing_range, drift))
     timing = None if s.step_timing is None else StepTiming(s.step_timing, s.period)
     if s.step_adjustment is None:
         return found if timing is None else [*found, timing]
@@ -73,3 +75,11 @@ def proposers(
     if s.learned_stride is not None:
         found.append(LearnedStride(s.learned_stride))
     return found
+
+
+def _drift(settings: ControllerSettings, layouts: Mapping[Side, SoleLayout]) -> PathDrift:
+    """Returns the drift of the ground, whose edges are seen to a taxel."""
+    taxel = max(layout.sole_area / len(layout) for layout in layouts.values())
+    identified = settings.identification or IdentificationRules().for_body(settings.body)
+    # derived: the variance of an even error that is a taxel wide, a twelfth of its square
+    return PathDrift(math.sqrt(taxel / 12.0), identified.gyro_time)
