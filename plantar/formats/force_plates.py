@@ -3,6 +3,7 @@
 Laboratory axes, z up; loads are on the foot.
 """
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -39,6 +40,12 @@ _BRINK = 0.01  # Distance in m of the CoP from a plate's edge below which a part
 # Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot.
 _BESIDE = 0.3
 _STATED = 2.0  # Offset in N from which it is reported
+# Gap in s between contacts of one plate below which it is a run's flight, and no foot was swung meanwhile: a sprinter's
+# swing takes 0.3 s, the flight of a run 0.02 to 0.2 s. Shorter ones are chatter of a foot that lands.
+_SWING = 0.25
+_BRIEF = 0.15  # Gap in s over which a foot counts as in contact (`MINIMUM_SWING` of gait.analysis): no step is found
+_CHATTER = 0.015
+_A_PLATE_EACH = "allowed: a plate for each foot"
 
 
 def feet_of_plates(
@@ -75,8 +82,10 @@ def feet_of_plates(
         if spread > 0.1:
             raise FormatError(
                 f"{used[0].name} is never empty and its load changes by {100.0 * spread:.0f} %: both feet walk on one "
-                "plate, which does not separate them; allowed: a plate for each foot"
+                f"plate, which does not separate them; {_A_PLATE_EACH}"
             )
+    if len(used) == 1:
+        _doubt_run(used[0], rate, warnings)
     every = are_belts(used, contacts, rate, warnings)
     both = [] if every else [c for c in contacts if used[c.plate].side is None and _is_of_both(used[c.plate], c)]
     if both:
@@ -197,6 +206,19 @@ def _refuse_no_foot(plate: Plate) -> None:
             f"the horizontal force of {plate.name} is {share:.2g} of its vertical one: no foot pushes so (a handrail, "
             "a wheel's rim, or another vertical axis?); allowed: force plates under feet"
         )
+
+
+def _doubt_run(plate: Plate, rate: float, warnings: list[str]) -> None:
+    """Refuses or doubts one plate whose contacts are so close that both feet run on it."""
+    contacts = plate_contacts(0, plate.force[:, 2], rate, _CHATTER)
+    gaps = [after.begin - before.end for before, after in itertools.pairwise(contacts)]
+    usual = float(np.median(gaps)) / rate if len(gaps) > 1 else _SWING
+    if usual >= _SWING:
+        return
+    text = f"{plate.name} is empty for {usual:.2g} s between contacts, which is the flight of a run and no foot's swing"
+    if usual < _BRIEF:
+        raise FormatError(f"{text}: both feet run, or hop, on one plate, which does not separate them; {_A_PLATE_EACH}")
+    warnings.append(f"{text}: where both feet run on it, strides are steps here")
 
 
 def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:

@@ -66,13 +66,18 @@ class PlateContact:
     end: int
 
 
-def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> list[PlateContact]:
-    """Returns plate contacts by vertical force (n,) in N at a rate in Hz, cut ones too; none if throughout."""
+def plate_contacts(
+    plate: int, vertical: NDArray[np.float64], rate: float, bridged: float = _BRIDGED
+) -> list[PlateContact]:
+    """Returns plate contacts by vertical force (n,) in N at a rate in Hz, cut ones too; none if throughout.
+
+    `bridged`: gaps in s that are shorter are no end of a contact.
+    """
     force = np.nan_to_num(vertical)
     loaded = force > max(LEAST, _SHARE * float(np.percentile(force, 99.5)))
     out: list[PlateContact] = []
     for a, b in true_runs(loaded):
-        if out and a - out[-1].end < _BRIDGED * rate:
+        if out and a - out[-1].end < bridged * rate:
             out[-1] = PlateContact(plate, out[-1].begin, b)
         else:
             out.append(PlateContact(plate, a, b))

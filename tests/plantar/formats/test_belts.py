@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from plantar import FormatError
 from plantar.formats.format import ReadOptions
 from plantar.gait.analysis.analyse import analyse
 
@@ -85,3 +86,25 @@ def test_plates_in_a_walkway_are_no_belts(tmp_path):
     path = tmp_path / "walk.mot"
     walk(path, ("1_", "2_"), 0.0)
     assert not any("belts" in w for w in analyse(path).warnings)
+
+
+@pytest.mark.parametrize(("contact", "flight"), [(0.24, 0.12), (0.28, 0.08), (0.30, 0.03)])
+@pytest.mark.parametrize("drift", [0.0, 80.0])
+def test_a_run_of_both_feet_on_one_belt_is_refused(tmp_path, contact, flight, drift):
+    path = tmp_path / "run.csv"
+    time = np.arange(0.0, 12.0, 0.002)
+    gone = np.mod(time, contact + flight) / contact
+    force = np.where(gone < 1.0, 1700.0 * np.sin(np.pi * np.minimum(gone, 1.0)), 0.0) + drift * time / time[-1]
+    path.write_text("time [s]\tFz [N]\n" + rows([time, force]))
+    with pytest.raises(FormatError, match=r"the flight of a run and no foot's swing.*allowed: a plate for each foot"):
+        analyse(path)
+
+
+def test_contacts_nearer_than_a_swing_are_doubted(tmp_path):
+    path = tmp_path / "run.csv"
+    time = np.arange(0.0, 12.0, 0.002)
+    for flight, told in ((0.2, 1), (0.5, 0)):
+        force = 1700.0 * np.clip(np.sin(np.pi * np.mod(time, 0.2 + flight) / 0.2), 0.0, None)
+        force[np.mod(time, 0.2 + flight) > 0.2] = 0.0
+        path.write_text("time [s]\tFz [N]\n" + rows([time, force]))
+        assert sum("where both feet run on it" in w for w in analyse(path).warnings) == told
