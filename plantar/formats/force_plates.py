@@ -67,7 +67,7 @@ def feet_of_plates(
         raise InputError(f"--plates names {len(options.plates)} plates; the file has {len(plates)}")
     named = [replace(p, side=s) for p, s in zip(plates, options.plates or [p.side for p in plates], strict=True)]
     chosen = [p for p, s in zip(named, options.plates or ["all"] * len(named), strict=True) if s is not None]
-    ready = [_zeroed(p, rate, warnings) for p in chosen]
+    ready = [_zeroed(p, rate, warnings) for p in _alive(chosen, warnings)]
     used = [p for p in ready if p.stepped]
     if not used:
         raise FormatError(f"no force plate carries more than {LEAST:g} N")
@@ -100,6 +100,20 @@ def feet_of_plates(
     sides = [None if c in both else s for c, s in zip(contacts, found, strict=True)]
     weights = _weights(used, contacts, sides, round(_BESIDE * rate))
     return {side: _foot(side, used, weights[side]) for side in SIDES if side in weights}, every
+
+
+def _alive(plates: Sequence[Plate], warnings: list[str]) -> list[Plate]:
+    """Plates less those that read one force in every frame while others change."""
+    ranges = [
+        float(np.nanmax(p.force[:, 2], initial=-np.inf) - np.nanmin(p.force[:, 2], initial=np.inf)) for p in plates
+    ]
+    alive = [p for p, moved in zip(plates, ranges, strict=True) if moved > 0.0]
+    stuck = [p for p, moved in zip(plates, ranges, strict=True) if moved == 0.0 and abs(p.force[0, 2]) > LEAST]
+    if not alive or not stuck:
+        return list(plates)
+    names = ", ".join(f"{p.name} {p.force[0, 2]:.4g} N" for p in stuck)
+    warnings.append(f"what reads one force in every frame, as a plate without power, is left out: {names}")
+    return [p for p in plates if p not in stuck]
 
 
 def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:

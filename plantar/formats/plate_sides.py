@@ -19,6 +19,7 @@ _SHORTEST = 0.1
 _BRIDGED = 0.1
 _NEARER = 0.1  # How much nearer in m one foot's markers are to the CoP than the other's, at least
 _REACH = 0.2  # Time in s between a contact's begin and a stated heel strike of its foot, at most
+_TOGETHER = 0.1  # Time in s between heel strikes of both feet below which they land together, as after a jump
 # Mean push to the middle in mid-stance, as a share of the peak, from which it shows the foot; walking has 0.03.
 _INWARD = 0.01
 _PAUSE = 1.0  # Time in s without load that ends a pass over the plates
@@ -224,7 +225,9 @@ def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedE
         if len(own.heel_strikes)
     }
     near = min(away, key=lambda s: away[s], default=None)
-    return near if near is not None and away[near] <= _REACH else None
+    if near is None or away[near] > _REACH or away.get(other_side(near), np.inf) - away[near] < _TOGETHER:
+        return None
+    return near
 
 
 def _walking_back(plates: Sequence[Plate], contacts: Sequence[PlateContact], rate: float) -> list[bool]:

@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 
+from plantar.formats.force_plates import feet_of_plates
+from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import Plate, PlateContact, sides_of_contacts
+from plantar.recordings.pressure_recording import StatedEvents
 
 RATE = 100.0
 LENGTH = 60  # frames of a contact
@@ -40,3 +43,25 @@ def test_clear_pushes_decide_over_places_that_contradict_them(across, pushes, wh
     found = sides_of_contacts(plates, contacts, False, RATE, None, warnings)
     assert found == ["right", "left", "right", "left"]
     assert why in warnings[0]
+
+
+def test_events_of_feet_that_land_together_show_no_foot():
+    plates, contacts = walk([0.1, -0.1], [-0.05, 0.05])
+    plates[1] = Plate("plate 2", np.roll(plates[1].force, -50, axis=0), cop=np.roll(plates[1].cop, -50, axis=0))
+    contacts[1] = PlateContact(1, 0, LENGTH)
+    together = {side: StatedEvents(np.array([0.01]), np.zeros(0)) for side in ("left", "right")}
+    warnings: list[str] = []
+    assert sides_of_contacts(plates, contacts, False, RATE, None, warnings, None, together) == ["left", "right"]
+    assert "push" in warnings[0]
+
+
+@pytest.mark.parametrize("stuck", [-1447.6, 374.1])
+def test_a_plate_that_reads_the_same_throughout_is_left_out(stuck):
+    plates, _ = walk([0.1, -0.1], [-0.05, 0.05])
+    plates.append(Plate("plate 3", np.full_like(plates[0].force, stuck)))
+    warnings: list[str] = []
+    feet, _ = feet_of_plates(plates, RATE, ReadOptions(), warnings)
+    assert [float(feet[side].vertical_force.max()) for side in ("left", "right")] == pytest.approx(
+        [800.0, 800.0], rel=0.001
+    )
+    assert any("in every frame" in w and "plate 3" in w for w in warnings)
