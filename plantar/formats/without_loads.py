@@ -10,7 +10,7 @@ from plantar.formats.text import head_text
 # identifier at its beginning.
 _OF_TEXT = (
     (
-        re.compile(r"PathFileType\s"),
+        re.compile(r"PathFileType[\s,;]"),
         "places of markers (.trc) and no loads; allowed: the forces of the same trial, as .mot, .forces or C3D",
     ),
     (

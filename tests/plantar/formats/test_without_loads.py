@@ -21,6 +21,14 @@ def test_text_without_loads_is_refused_with_what_to_give(tmp_path, what):
     assert "allowed: " in str(refused.value)
 
 
+@pytest.mark.parametrize("sign", ",;")
+def test_places_of_markers_saved_by_a_spreadsheet(tmp_path, sign):
+    path = tmp_path / "walk.trc"
+    path.write_text(_FILES["places of markers"].replace("\t", sign))
+    with pytest.raises(FormatError, match="places of markers"):
+        read_recording(path)
+
+
 def test_places_of_markers_above_force_plates_are_read_on(tmp_path):
     path = tmp_path / "walk.csv"
     rows = "".join(f"{i},0,{400 * (10 < i % 60 < 40)}\n" for i in range(200))
