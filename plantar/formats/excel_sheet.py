@@ -66,10 +66,13 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     with TemporaryDirectory(prefix="plantar-") as folder:
         text = Path(folder) / f"{path.stem}.txt"
         text.write_bytes(content)
-        found = detect_format(text)
-        if found.read is None:
-            raise FormatError("the workbook holds no recording")
-        return replace(found.read(text, options), path=path)
+        try:
+            found = detect_format(text)
+            if found.read is None:
+                raise FormatError("the workbook holds no recording")
+            return replace(found.read(text, options), path=path)
+        except FormatError as error:  # of a file that the user does not have
+            raise FormatError(str(error).removeprefix(f"{text}: ")) from None
 
 
 FORMAT = Format(

@@ -100,6 +100,15 @@ def test_what_is_no_recording_is_refused(tmp_path):
             read_recording(path)
 
 
+def test_a_refusal_names_the_workbook_alone(tmp_path):
+    path = tmp_path / "report.xls"
+    path.write_bytes(workbook([["Estimate", "SE"], [0.5, 0.1], [0.25, 0.2]]))
+    with pytest.raises(FormatError) as refused:
+        read_recording(path)
+    assert str(refused.value).startswith(f"{path}: ")
+    assert ".txt" not in str(refused.value).partition("known: ")[0]
+
+
 def test_a_plate(tmp_path):
     rows: list[list[float | str]] = [["footscan entire plate roll off"]]
     for i in range(30):
