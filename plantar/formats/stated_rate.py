@@ -49,7 +49,8 @@ def stated_rate(facts: Mapping[str, str], warnings: list[str]) -> float | None:
         words = _words(_clear(name))
         shown = f"{name!r} of {text[:40]!r}"
         end = next((k for k in range(len(words), 0, -1) if _is_stated(words[:k], words[k:])), 0)
-        stated = _STATED.fullmatch(_clear(text))
+        columns = {part.strip() for part in re.split("[\t;]", text) if part.strip()}
+        stated = _STATED.fullmatch(_clear(columns.pop() if len(columns) == 1 else text))  # BioWare: one a column
         if not end or not text.strip() or (found and stated is None):
             continue
         if stated is None:

@@ -103,6 +103,15 @@ def test_what_is_assumed_is_told(facts, rate, words):
     assert len(warnings) == 1
 
 
+@pytest.mark.parametrize("sign", "\t;")
+def test_a_rate_stated_once_a_column_is_clear(sign):
+    warnings: list[str] = []
+    assert stated_rate({"Rate (Hz)": sign.join(["1000.000000"] * 8)}, warnings) == 1000.0
+    assert not warnings
+    stated_rate({"Rate (Hz)": sign.join(["1000", "500"])}, warnings)
+    assert "is not clear" in warnings[0]
+
+
 @pytest.mark.parametrize("text", ["fast", "inf", "1.2.3", "2024-05-01", "12:30"])
 @pytest.mark.parametrize("name", ["rate", "dt"])
 def test_what_is_no_number_is_refused(name, text):
