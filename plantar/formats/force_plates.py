@@ -86,6 +86,8 @@ def feet_of_plates(
             )
     if len(used) == 1:
         _doubt_run(used[0], rate, warnings)
+    for plate in used:
+        _doubt_one_foot(plate, markers or {}, warnings)
     every = are_belts(used, contacts, rate, warnings)
     both = [] if every else [c for c in contacts if used[c.plate].side is None and _is_of_both(used[c.plate], c)]
     if both:
@@ -233,6 +235,21 @@ def _doubt_run(plate: Plate, rate: float, warnings: list[str]) -> None:
     if usual < _BRIEF:
         raise FormatError(f"{text}: both feet run, or hop, on one plate, which does not separate them; {_A_PLATE_EACH}")
     warnings.append(f"{text}: where both feet run on it, strides are steps here")
+
+
+def _doubt_one_foot(plate: Plate, markers: Mapping[Side, NDArray[np.float64]], warnings: list[str]) -> None:
+    """Warns where the markers of both feet are over a loaded plate in most frames, as in standing."""
+    if plate.corners is None or len(markers) < 2:
+        return
+    loaded = np.nan_to_num(plate.force[:, 2]) > max(LEAST, 0.2 * float(np.nanmax(plate.force[:, 2])))
+    over = np.array(
+        [_from_edge(plate.corners, np.nan_to_num(track[loaded], nan=1e9)) > 0.0 for track in markers.values()]
+    )
+    if over.all(axis=0).mean() > 0.5:
+        warnings.append(
+            f"the markers of both feet are over {plate.name} while it is loaded: its load is that of both feet, though "
+            "it is shown as one foot's"
+        )
 
 
 def on_its_surface(plate: Plate, warnings: list[str]) -> Plate:

@@ -55,6 +55,18 @@ def test_events_of_feet_that_land_together_show_no_foot():
     assert "push" in warnings[0]
 
 
+@pytest.mark.parametrize(("apart", "told"), [(0.1, 1), (0.6, 0)])
+def test_a_plate_under_the_markers_of_both_feet_is_doubted(apart, told):
+    force = np.zeros((300, 3))
+    force[:, 2] = 700.0 + 5.0 * np.sin(np.arange(300.0))
+    corners = np.array([[0.25, 0.25], [-0.25, 0.25], [-0.25, -0.25], [0.25, -0.25]])
+    plate = Plate("plate 1", force, cop=np.zeros((300, 2)), corners=corners)
+    markers = {side: np.tile([0.0, y], (300, 1)) for side, y in (("left", apart), ("right", -0.1))}
+    warnings: list[str] = []
+    feet_of_plates([plate], RATE, ReadOptions(), warnings, markers)
+    assert sum("load is that of both feet" in w for w in warnings) == told
+
+
 @pytest.mark.parametrize("stuck", [-1447.6, 374.1])
 def test_a_plate_that_reads_the_same_throughout_is_left_out(stuck):
     plates, _ = walk([0.1, -0.1], [-0.05, 0.05])
