@@ -54,4 +54,6 @@ if __name__ == "__main__":
     for time, frame in zip(times, feet, strict=True):
         cells = 2.5 * np.round(frame.ravel() / 2.5)  # the sensor resolves 2.5 kPa
         lines.append("\t".join([f"{time:.3f}", *(f"{value:g}" for value in cells)]))
-    Path(sys.argv[1]).write_text("\n".join(lines) + "\n", encoding="ascii")
+    out = Path(sys.argv[1])
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text("\n".join(lines) + "\n", encoding="ascii")

@@ -234,6 +234,12 @@ def test_the_page_that_compares_counts_them():
     assert f" {len(EXAMPLES)}, one idea each, and four notebooks" in page
 
 
+def test_the_made_walk_of_the_readme_needs_no_folder(tmp_path):
+    command = [sys.executable, str(ROOT / "examples" / "insole_walk.py"), "out/insole.asc"]
+    subprocess.run(command, cwd=tmp_path, check=True, timeout=600)
+    assert (tmp_path / "out" / "insole.asc").stat().st_size > 0
+
+
 @pytest.mark.sample(1)
 @pytest.mark.parametrize("name", ["insole_walk", "introduce_robot", "record_to_tables", "gallery"])
 def test_an_example_without_the_file_that_it_needs_says_what_to_give(name, tmp_path):
