@@ -138,7 +138,7 @@ class Drift:
 
 
 def drift(take: Take, layout: SoleLayout) -> dict[Side, Drift]:
-    """Drift of the zero, of the gain, and creep under a static load, told apart by when the soles are loaded.
+    """Drift of the zero, of the gain, and creep under a static load, separated by when the soles are loaded.
 
     Without load a reading shows the zero alone. Under the same load, with the zero of the time around it taken off, it
     shows the gain, and within one phase of load, over the logarithm of time, creep.

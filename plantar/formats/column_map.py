@@ -112,7 +112,7 @@ def _shown(i: int, names: Sequence[str]) -> str:
 
 
 def proposed_map(names: Sequence[str], table: NDArray[np.float64], among: Sequence[int] | None = None) -> str:
-    """Returns the map of a table (n, k) that names do not tell, filled in as far as they and the numbers go.
+    """Returns the map of a table (n, k) that names do not show, filled in as far as they and the numbers go.
 
     The loads are `among` some columns, where these are known.
 

@@ -1,7 +1,7 @@
 """Tables of any origin (CSV, TSV, text): a row a frame, below lines of unit, rate and names.
 
-OpenSim's .mot and .sto, Cortex' .forces and loadsol's text without zones count, too. A column is what its name says, or
-what `ReadOptions.columns` states; one without either is nothing.
+OpenSim's .mot and .sto, Cortex' .forces and loadsol's text without zones count, too. A column is what its name or
+`ReadOptions.columns` states; one without either is left out.
 """
 
 import re

@@ -197,7 +197,7 @@ def _heading(name: str, unit: str) -> Heading:
 
 
 def _quantity(words: tuple[str, ...], found: set[str], axis: str, ground: bool) -> Quantity:
-    # The first that fits, the most telling first.
+    # The first that fits; the clearest come first.
     cells = any(w in _PLACES for w in words) and "plate" not in found and axis in ("", "ml", "ap")
     alone = {"a", "c", "p", "l", "r", "left", "right", *filter(str.isdigit, words)}
     if "foreign" in found:

@@ -36,7 +36,7 @@ _SHEAR = 0.6
 # Share of loaded frames whose CoP is outside the plate by more than 0.05 m from which its geometry is doubted.
 _OUTSIDE = 0.3
 _EDGE = 0.05
-_BRINK = 0.01  # Distance in m of the CoP from a plate's edge below which a part of the foot may be beside it
+_BRINK = 0.01  # Distance in m of the CoP from a plate's edge below which a part of the foot may be off it
 # Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot.
 _BESIDE = 0.3
 _STATED = 2.0  # Offset in N from which it is reported
@@ -317,7 +317,7 @@ def _weights(
         if not own:
             out[plate.side or "left"][i][:] = True
         elif len(feet := {s for _, s in own}) == 1 and (foot := feet.pop()) and sides.count(foot) == len(own):
-            out[foot][i][:] = True  # whole, with its noise between and beside the contacts
+            out[foot][i][:] = True  # whole, with its noise between and around the contacts
             continue
         for k, (contact, side) in enumerate(own):
             if side is None:
