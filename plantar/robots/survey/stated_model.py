@@ -129,7 +129,7 @@ def named_note(text: str, names: Sequence[str]) -> list[str]:
 def explained(error: RobotError, notes: Iterable[str]) -> RobotError:
     """Returns an `error` with explaining `notes`: which meshes are missing, first, and what may have led to it."""
     notes = tuple(notes)
-    missing = [_shortened(note) for note in notes if note.startswith(("meshes are missing", "mesh "))][:1]
+    missing = [_shortened(note) for note in notes if note.startswith(("meshes ", "mesh "))][:1]
     causes = [n for n in notes if n.startswith("held, ") or ("cannot be" in n and not n.startswith("mesh"))]
     file, _, problem = str(error).partition(": ")
     return RobotError("; ".join([f"{file}: {'; '.join([*missing, problem])}", *causes[:3]]))
@@ -239,15 +239,25 @@ def _drop_unreadable(spec: Any, source: ModelSource, folder: Path, notes: list[s
     drawn = [(mesh, source.mesh_path(spec, mesh)) for mesh in spec.meshes if mesh.file]
     meshes = meshes_for_mujoco((path for _, path in drawn), folder, source.file)
     lost: dict[str, str] = {}
+    unread: dict[str, int] = {}
     for mesh, path in drawn:
         readable = meshes[path]
         if readable is not None:
             mesh.file = str(readable.resolve())
             continue
         users = [g for g in spec.geoms if g.meshname == mesh.name]
-        notes.append(f"mesh {path.name} cannot be read; the {len(users)} shape(s) made of it are left out")
+        unread[path.name] = unread.get(path.name, 0) + len(users)
         lost |= {geom.parent.name: path.name for geom in users}
         delete_all(spec, [*users, mesh])
+    if len(unread) == 1:
+        notes.extend(
+            f"mesh {name} cannot be read; the {n} shape(s) made of it are left out" for name, n in unread.items()
+        )
+    elif unread:
+        text = (
+            f"meshes cannot be read; the {sum(unread.values())} shapes made of them are left out: {', '.join(unread)}"
+        )
+        notes.append(_shortened(text))
     spec.strippath = False  # as it is for a URDF, MuJoCo 4 would look for these files beside the model
     return {name: mesh for name, mesh in lost.items() if not len(spec.body(name).geoms)}
 

@@ -449,6 +449,16 @@ def test_an_attached_model_keeps_its_own_angles_and_folder_of_meshes(tmp_path):
     np.testing.assert_allclose(source.model.jnt_range[0], [-0.5 * np.pi, 0.5 * np.pi])
 
 
+def test_many_meshes_that_cannot_be_read_are_one_note(tmp_path):
+    truth = random_biped(10, tmp_path)
+    meshes = "".join(f"<mesh name='m{k}' file='m{k}.stl'/>" for k in range(5))
+    shapes = "".join(f"<geom type='mesh' mesh='m{k}'/>" for k in range(5))
+    text = truth.file.read_text().replace("</mujoco>", f"<asset>{meshes}</asset></mujoco>")
+    truth.file.write_text(text.replace("<joint", f"{shapes}<joint", 1))
+    notes = [note for note in read_stated_model(truth.file, tmp_path).notes if "cannot be read" in note]
+    assert notes == ["meshes cannot be read; the 5 shapes made of them are left out: m0.stl, m1.stl, m2.stl and 2 more"]
+
+
 def test_a_foot_without_a_shape_is_refused_by_its_name(tmp_path):
     truth = random_biped(10, tmp_path)
     spec = mujoco.MjSpec.from_file(str(truth.file))
