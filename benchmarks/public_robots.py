@@ -82,6 +82,19 @@ REPOSITORIES = {
     "Atlas, five joints a leg": ("robfiras/loco-mujoco", "loco_mujoco/environments/data/atlas/atlas.xml"),
     "human": ("robfiras/loco-mujoco", "loco_mujoco/environments/data/humanoid/humanoid_torque.xml"),
     "Tocabi": ("saga0619/dyros_tocabi_v2", "tocabi_description/robots/dyros_tocabi.urdf"),
+    "Valkyrie": ("gkjohnson/nasa-urdf-robots", "val_description/model/robots/valkyrie_sim.urdf"),
+    "JAXON": ("robot-descriptions/jaxon_description", "urdf/jaxon_jvrc.urdf"),
+    "GENE.01": ("gbionics/gb-robot-models", "share/gb_robot_models/robots/gene01_0/model.urdf"),
+    "EngineAI PM01": ("YanjieZe/GMR", "assets/engineai_pm01/pm_v2.xml"),
+    "NAO": ("ros-naoqi/nao_robot", "nao_description/urdf/naoV50_generated_urdf/nao.urdf"),
+    "ToddlerBot": ("hshi74/toddlerbot", "toddlerbot/descriptions/toddlerbot/toddlerbot.urdf"),
+    "SigmaBan": ("Rhoban/sigmaban_urdf", "robot.urdf"),
+    "Open Duck Mini": (
+        "apirrone/Open_Duck_Playground",
+        "playground/open_duck_mini_v2/xmls/open_duck_mini_v2.xml",
+    ),
+    "TRON1, soles": ("limxdynamics/robot-description", "pointfoot/SF_TRON1A/urdf/robot.urdf"),
+    "Draco 3, MJCF": ("shbang91/rpc", "robot_model/draco/draco_latest_collisions.xml"),
 }
 """Repository at github.com of each further model, and its path there."""
 
