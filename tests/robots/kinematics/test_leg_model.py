@@ -64,6 +64,8 @@ def test_converges_to_every_target(legs, seed):
     posture = legs.posture(joints)
     base_to_world, base = data.body("base").xmat.reshape(3, 3), data.body("base").xpos
     assert base + base_to_world @ posture.com == pytest.approx(com, abs=1e-8)
+    for site in ("imu", "left_sole"):  # the latter's by the joints of the last posture
+        assert base + base_to_world @ legs.place_of(site) == pytest.approx(data.site(site).xpos, abs=1e-8)
 
 
 def test_a_live_posture_is_the_same_in_arrays_that_stay(legs):

@@ -83,7 +83,7 @@ def check_leaning_soles(trace: Trace, motion: BodyMotion) -> list[Finding]:
     text = f"both centers of pressure are off the ZMP that encoders show by {1e3 * off[()]:.1f} mm"
     if turned:
         text += f", and with that order reversed by {1e3 * off[turned]:.1f}"
-        return [Finding(f"taxel order of the {side} sole reversed", text, "less than reversed") for side in turned]
+        return [Finding(f"taxel order of the {side} sole reversed", text, "nearer as wired") for side in turned]
     if off[()] > _UNEXPLAINED * float(np.std(zmp)):
         return [Finding("taxel order wrong", text, f"{1e3 * _UNEXPLAINED * float(np.std(zmp)):.1f} mm")]
     slopes = [
