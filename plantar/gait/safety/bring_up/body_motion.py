@@ -23,14 +23,16 @@ class BodyMotion(NamedTuple):
 
     Attributes:
         turn: Torso's rotation vector (n, 3) since the first row, its frame, in rad.
-        zmp: ZMP (m, 2) in m, but for a constant, of each `smoothed` row; exact while the torso does not turn about the
-            other axis.
-        force: Specific force (m, 2) in m/s^2 at the IMU, likewise.
+        zmp: ZMP (m, 2) in m from the middle of both soles, of each `smoothed` row; that of the model's CoM, and exact
+            while the torso does not turn about the other axis.
+        force: Specific force (m, 2) in m/s^2 at the IMU, but for a constant, likewise.
+        height: CoM's in m over the soles.
     """
 
     turn: NDArray[np.float64]
     zmp: NDArray[np.float64]
     force: NDArray[np.float64]
+    height: float
 
 
 def body_motion(
@@ -57,7 +59,7 @@ def body_motion(
     zmp = smoothed(com, period) - height / GRAVITY * _accelerated(com, period)
     tilt = GRAVITY * np.column_stack([-turn[:, 1], turn[:, 0]])
     place = over_soles(np.broadcast_to(imu, coms.shape))
-    return BodyMotion(turn, zmp[:, :2], _accelerated(place, period)[:, :2] + smoothed(tilt, period))
+    return BodyMotion(turn, zmp[:, :2], _accelerated(place, period)[:, :2] + smoothed(tilt, period), height)
 
 
 def smoothed(values: NDArray[np.float64], period: float) -> NDArray[np.float64]:
