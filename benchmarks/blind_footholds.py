@@ -2,7 +2,7 @@
 
     python benchmarks/blind_footholds.py                          100 runs of ours a trial, 30 of each other row
     python benchmarks/blind_footholds.py --minutes 25             as many of them as 25 minutes of a core allow
-    python benchmarks/blind_footholds.py --page                   the page of the rows that there are
+    python benchmarks/blind_footholds.py --page                   page and picture of the rows that there are
 
 Runs alternate among trials and policies, so that whatever time allows is even: ours gets ten runs where another row
 gets three. The table goes on where it was left, unless it is of another commit: `--fresh` begins it again.
@@ -19,6 +19,7 @@ from typing import Any
 
 from resumable import FOLDER, commit, rows_of
 
+from plantar.bench.intervals import wilson_interval
 from plantar.bench.kind import BenchOptions, Case
 from plantar.bench.tables import markdown_table
 from plantar.sim.bench.footholds.foothold_run import TRIALS
@@ -34,7 +35,17 @@ The first seeds are taken, each with all trials. Difficulties are in units of th
 shown. The rows of a trial differ by what the policy measures alone: `zero` is the action 0, `net-force` the built-in
 controller by one force a sole, `ankles` by force-torque sensors, `plantar` by taxels and proximity.
 
+![Walks completed as stones, slopes, steps and pushes grow harder, by what the soles sense](blind_footholds.png)
+
 """
+SHOWN = {
+    "stones": "smallest stone [share of a sole]",
+    "slopes": "slope [degrees]",
+    "steps": "step up or down [legs]",
+    "push": "push [m/s over sqrt(g leg)]",
+}
+"""Kinds of trial of the picture, in which what is sensed matters, and their difficulty."""
+COLOUR = {OURS: ("polygon", "taxels"), "ankles": ("left", "ankle force-torque"), "net-force": ("right", "net force")}
 
 
 def wanted(ours: int, others: int) -> Iterator[Case]:
@@ -87,6 +98,32 @@ def page() -> str:
     return PAGE.format(commit=rows[0]["commit"], runs=runs) + markdown_table(table.head, table.rows)
 
 
+def picture() -> None:
+    """The rows' shares of completed walks over difficulty, with Wilson's intervals at 95 %."""
+    from plantar.plotting import COLOURS, new_figure, save_figure
+
+    rows = rows_of(TABLE)
+    figure, axes = new_figure(11.0, 3.4, 1, len(SHOWN), sharey=True, grid=True)
+    for axis, (kind, difficulty) in zip(axes, SHOWN.items(), strict=True):
+        grades = sorted({float(r["value"]) for r in rows if r["kind"] == kind}, reverse=kind == "stones")
+        for place, (policy, (colour, label)) in enumerate(COLOUR.items()):
+            shares, ends = [], []
+            for value in grades:
+                mine = [r for r in rows if (r["policy"], r["kind"], float(r["value"])) == (policy, kind, value)]
+                done = sum(r["completed"] == "True" for r in mine)
+                low, high = wilson_interval(done, len(mine))
+                shares.append(100.0 * done / len(mine))
+                ends.append((shares[-1] - 100.0 * low, 100.0 * high - shares[-1]))
+            at = [i + 0.08 * (place - 1) for i in range(len(grades))]  # beside each other, so that intervals are seen
+            spread = [[max(e[side], 0.0) for e in ends] for side in (0, 1)]
+            axis.errorbar(at, shares, spread, color=COLOURS[colour], label=label, marker="o", ms=4, capsize=2)
+        axis.set_xticks(range(len(grades)), [f"{value:g}" for value in grades])
+        axis.set_xlabel(difficulty)
+    axes[0].set_ylabel("walks completed [%]")
+    axes[-1].legend(loc="upper right", fontsize="small")
+    save_figure(figure, TABLE.with_suffix(".png"))
+
+
 def _range(counts: Collection[int]) -> str:
     low, high = min(counts), max(counts)
     return str(low) if low == high else f"{low} to {high}"
@@ -106,6 +143,7 @@ def main() -> None:
     if not options.page:
         count(wanted(options.ours, options.others), options.minutes, options.commit or commit())
     TABLE.with_suffix(".md").write_text(page(), encoding="utf-8")
+    picture()
 
 
 if __name__ == "__main__":
