@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from plantar.common.settings.body_scale import BodyScale
+from plantar.common.sides import SIDES
 from plantar.errors import InputError, RobotError
 from plantar.robots import load_robot
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.body import body_of
-from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.robots.kinematics.robot_model import build_leg_model, compiled_model
 from plantar.robots.survey.fitted_gait import (
     APPROACH_HEIGHT,
     APPROACH_SPEED,
@@ -50,6 +51,20 @@ def test_scenes_at_a_velocity_ask_for_the_quick_steps_that_motors_are_measured_b
 def speed(fitted: FittedGait) -> float:
     robot = fitted.robot
     return STEP_SHARE * fitted.body.leg / (robot.single_support + robot.double_support)
+
+
+@pytest.mark.long
+def test_knees_that_bend_ahead_alone_are_walked_on_with_a_note(monkeypatch):
+    def bird(spec, robot):
+        for side in SIDES:
+            spec.joint(f"{side}_knee").range = [-150.0, 5.0]  # degrees
+        return compiled_model(spec, robot)
+
+    monkeypatch.setattr("plantar.robots.kinematics.robot_model.compiled_model", bird)
+    fitted = fit_gait(load_robot("h1"))
+    assert any("bend the shank ahead, as a bird's do" in note for note in fitted.notes)
+    assert math.degrees(fitted.reach.knee) >= 10.0
+    assert math.degrees(fitted.robot.posture["left"][3]) < -10.0
 
 
 @pytest.mark.long
