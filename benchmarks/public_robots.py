@@ -93,6 +93,7 @@ REPOSITORIES = {
         "apirrone/Open_Duck_Playground",
         "playground/open_duck_mini_v2/xmls/open_duck_mini_v2.xml",
     ),
+    "Kuavo S45": ("YanjieZe/GMR", "assets/kuavo_s45/biped_s45.urdf"),
     "TRON1, soles": ("limxdynamics/robot-description", "pointfoot/SF_TRON1A/urdf/robot.urdf"),
     "Draco 3, MJCF": ("shbang91/rpc", "robot_model/draco/draco_latest_collisions.xml"),
 }
