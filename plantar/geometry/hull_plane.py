@@ -5,7 +5,9 @@ from numpy.typing import NDArray
 
 from plantar.common.optional_library import optional_library
 
-_ROUNDED = np.cos(np.radians(5.0))  # of a sole's own slopes
+# Of a sole's own slopes: Open Duck Mini's have 2 and 3 degrees, its chamfers 31 and 38. With planes within 1 degree the
+# soles of 40 other public models are the same.
+_ROUNDED = np.cos(np.radians(5.0))
 
 
 def hull_plane(

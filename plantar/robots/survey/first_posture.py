@@ -17,7 +17,7 @@ _SOLE_GAP = 0.25  # of the sole's width between two soles that stand side by sid
 # of a knee
 _SEED_BEND = math.radians(40.0)
 _LEAST_BEND = math.radians(20.0)
-_LEAST_AHEAD = math.radians(5.0)
+_LEAST_AHEAD = math.radians(5.0)  # a posture that is straight but for rounding bends neither way; walks bend by 10
 
 Array = NDArray[np.float64]
 
