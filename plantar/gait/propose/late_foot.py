@@ -9,7 +9,8 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick
 from plantar.gait.propose.step_timing import LONGEST_DOUBLE
 
-# chosen: beats by which the double support grows at a time: 50 ms on h1, in which a foot comes down by a centimetre
+# chosen: beats by which the double support grows at a time: 50 ms on h1, in which a foot comes down by a centimetre.
+# +-20 % fells neither robot in three turns with worn soles on poor ground, whose mean landing moves by -13 to +4 %
 _WAITS = 0.202
 
 

@@ -15,7 +15,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.foxglove import log_message
 from plantar.recordings.recorder import Recorder
 
-_BEFORE = 2.0  # s that are kept before a fault
+_BEFORE = 2.0  # chosen: s that are kept before a fault: a step of the slowest walk; a log alone depends on it
 _MOST = 16  # faults that are kept with what came before them; of later ones the text is kept
 _MOST_TEXTS = 1000
 
