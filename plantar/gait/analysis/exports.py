@@ -107,6 +107,8 @@ def write_external_loads(analysis: Analysis, path: Path, motion: str) -> None:
 
 
 _BLOCK = 4096
+_PLATE = ("Fx [N]", "Fy [N]", "Fz [N]", "COPx [m]", "COPy [m]", "Tz [N m]")
+"""Columns of a plate in a table, in the order of `GroundReaction`."""
 
 
 def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Path]:
@@ -114,7 +116,8 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
 
     Args:
         analysis: Recording without baselines.
-        path: .npz (times, forces in N of each cell, layouts, events), .csv (a column a cell, `left 12 [N]`), .c3d (a
+        path: .npz (times, forces in N of each cell, layouts, events), .csv (a column a cell, `left 12 [N]`; of
+            force plates force, CoP and free moment, `left Fz [N]`), .c3d (a
             force platform a foot, its CoP as point, events in group EVENT; needs ezc3d) or .mot (OpenSim, external
             loads as .xml).
 
@@ -172,13 +175,14 @@ def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
 
 def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
     recording = analysis.recording
+    plates = target.suffix.lower() == ".csv" and _with_wrenches(recording)
     return {
         "SamplingFrequency": recording.rate_hz,
         "StartTime": float(recording.time[0]),
         "RecordingDuration": float(recording.time[-1] - recording.time[0]),
         "TaskName": analysis.metrics.get("activity", {}).get("name", "unknown"),
         "Units": _unit(analysis),
-        "Columns": {side: foot.force.shape[1] for side, foot in recording.feet.items()},
+        "Columns": {side: len(_PLATE) if plates else foot.force.shape[1] for side, foot in recording.feet.items()},
         "SoftwareName": "plantar",
         "SoftwareVersions": VERSION,
         "SourceFile": recording.path.name,
@@ -187,6 +191,11 @@ def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
         "Warnings": list(recording.warnings),
         "Events": [{"onset": t, "trial_type": what, "side": side} for side, what, t in _events(analysis)],
     }
+
+
+def _with_wrenches(recording: PressureRecording) -> bool:
+    """Whether a recording is of force plates that measure more than the vertical force."""
+    return recording.kind == "plate" and all(foot.wrench is not None for foot in recording.feet.values())
 
 
 def _write_npz(analysis: Analysis, path: Path) -> None:
@@ -206,14 +215,20 @@ def _write_npz(analysis: Analysis, path: Path) -> None:
 
 def _write_csv(analysis: Analysis, path: Path) -> None:
     recording = analysis.recording
-    feet = recording.feet.items()
-    ids = {s: np.arange(1, f.force.shape[1] + 1) if f.layout is None else f.layout.ids for s, f in feet}
+    feet, unit = recording.feet.items(), _unit(analysis)
+    if _with_wrenches(recording):
+        reactions = ground_reactions(analysis)
+        names = [f"{side} {head}" for side in reactions for head in _PLATE]
+        columns = [np.column_stack([r.force, r.cop, r.free]) for r in reactions.values()]
+    else:
+        ids = {s: np.arange(1, f.force.shape[1] + 1) if f.layout is None else f.layout.ids for s, f in feet}
+        names = [f"{side} {cell} [{unit}]" for side in ids for cell in ids[side]]
+        columns = [foot.force for _, foot in feet]
     with path.open("w", encoding="utf-8", newline="") as stream:
-        names = ["time [s]", *(f"{side} {cell} [{_unit(analysis)}]" for side in ids for cell in ids[side])]
-        write_csv_rows(stream, [names])
+        write_csv_rows(stream, [["time [s]", *names]])
         for begin in range(0, len(recording.time), _BLOCK):
             part = slice(begin, begin + _BLOCK)
-            block = np.column_stack([recording.time[part], *(foot.force[part] for _, foot in feet)])
+            block = np.column_stack([recording.time[part], *(column[part] for column in columns)])
             write_csv_rows(stream, ([None if v != v else f"{v:.9g}" for v in row] for row in block.tolist()))
 
 

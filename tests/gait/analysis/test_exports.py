@@ -163,6 +163,22 @@ def test_forces_are_read_back_as_plates(tmp_path, analysis, suffix):
         assert np.abs(axes - cop[there]).max() < 1e-5
 
 
+def test_plates_in_a_table_are_plates_again(tmp_path, analysis):
+    """Not insoles of one cell, whose contacts begin at another level."""
+    first = analyse(export_analysis(analysis, tmp_path / "walk.mot")[0])
+    assert first.recording.kind == "plate"
+    path, sidecar = export_analysis(first, tmp_path / "plates.csv")
+    assert json.loads(sidecar.read_text())["Columns"] == {"left": 6, "right": 6}
+    again = analyse(path)
+    assert again.recording.kind == "plate"
+    for side, gait in first.feet.items():
+        loaded = np.isfinite(gait.foot.center_of_pressure(1.0)[:, 0])
+        wrenches = [np.nan_to_num(a.feet[side].foot.wrench)[loaded] for a in (first, again)]
+        np.testing.assert_allclose(wrenches[1], wrenches[0], atol=1e-4)
+        assert again.feet[side].heel_strikes == pytest.approx(gait.heel_strikes, abs=1e-6)
+        assert again.feet[side].toe_offs == pytest.approx(gait.toe_offs, abs=1e-6)
+
+
 def test_ezc3d_reads_force_platforms(tmp_path, analysis):
     ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
