@@ -43,10 +43,13 @@ class PlainGround:
 
         self._outlines = outlines
         self._around = around
-        self._faces = [
-            (shapely.Polygon(ring).convex_hull, s.shape == "box" and s.rotation[2, 2] > _LEVEL and not s.motions)
-            for s, ring in zip(ground.solids, ground.seen_from_above(), strict=True)
-        ]
+        self._faces = []
+        for solid, ring in zip(ground.solids, ground.seen_from_above(), strict=True):
+            # Where a piece goes the ground is not plain, from where it begins to where it ends.
+            ways = [m.position[:2] - solid.position[:2] for m in solid.motions]
+            swept = shapely.MultiPoint(np.vstack([np.array(ring) + way for way in (np.zeros(2), *ways)])).convex_hull
+            level = solid.shape == "box" and solid.rotation[2, 2] > _LEVEL and not solid.motions
+            self._faces.append((swept, level))
 
     def under(self, side: Side, x: float, y: float, yaw: float) -> bool:
         """Returns whether the `side`'s sole at `x`, `y` in m and `yaw` in rad is on one level face."""

@@ -1,5 +1,6 @@
 """What justifies a move of a footstep, and which geoms are ground."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import mujoco
@@ -128,3 +129,11 @@ def test_what_lies_within_reach_is_not():
 )
 def test_only_a_level_face_that_stays_is_plain(solid, is_plain):
     assert plain(solid).under("right", 0.0, 0.0, 0.0) == is_plain
+
+
+def test_ground_that_slides_in_is_not_plain_where_it_comes_to_lie():
+    """As `slide-in`: from 0.4 m aside to under the sole, which a step may leave."""
+    slab = Solid("box", (0.15, 0.09, 0.01), np.array([1.2, -0.485, 0.0]))
+    there = replace(slab, motions=(Motion(1.0, 0.4, np.array([1.2, -0.085, 0.0])),))
+    assert not justified(judge((), slab))
+    assert justified(judge((), there))
