@@ -29,9 +29,11 @@ class PathDrift:
     y with as large an error.
 
     `spread`: standard deviation in m of an edge; `time_constant`: T in s, in which a bias is identified again.
+    Attribute `seen`: whether there was an edge; before, offset and heading are 0.
     """
 
     def __init__(self, spread: float, time_constant: float) -> None:
+        self.seen = False
         self._variance = spread**2
         self._shape = 0.0
         self._time_constant = time_constant
@@ -69,6 +71,7 @@ class PathDrift:
         self._shape *= math.exp(-1.0 / _SHAPE)
 
     def _update(self, edge: float) -> None:
+        self.seen = True
         missed = edge - float(self._state[0])
         along: NDArray[np.float64] = self._covariance[0]
         variance = float(along[0]) + self._variance

@@ -90,7 +90,7 @@ class EdgeBeside:
         way = 0.0 if self._landed is None else float((here - self._landed) @ ahead)
         self._landed = here
         drift.landed(tick.time, way, 2.0 * across if across else None)
-        if step + 1 >= tick.plan.count:
+        if not drift.seen or step + 1 >= tick.plan.count:
             return 0.0
         move = drift.offset(float((tick.plan.foothold(step + 1).position[:2] - here) @ ahead))
         return move if abs(move) >= self._rules.least_move else 0.0
