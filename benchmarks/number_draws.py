@@ -35,6 +35,7 @@ RATES = ("period", "physics_period", "skin_rate")
 TABLE = FOLDER / "number_draws.csv"
 ALONE = FOLDER / "number_alone.csv"
 PAGE = FOLDER / "number_draws.md"
+SINGLE = "Alone at both ends, on five drawn plants of the scene where they show most (impact in BW, margin in mm):"
 FIGURES = {"completed": "completed", "impact": "largest impact [BW]", "margin": "smallest ZMP margin [mm]"}
 COLUMNS = ("draw", "scene", "robot", "completed", "fell", "impact", "margin", "failed", "commit")
 COLUMNS_ALONE = ("number", "factor", "scene", "robot", "seed", *COLUMNS[3:])
@@ -259,7 +260,7 @@ def page() -> None:
     good = sum(r["completed"] == "True" for r in drawn)
     low, high = wilson_interval(good, len(drawn))
     names, found = tuned(), effects(rows)
-    sure = _sure(len(names) * len(FIGURES))
+    sure = _sure(len(names) * len(FIGURES), len(drawn) - 2)
     told = [(n, names[n].value, names[n].unit, f, f"{slope:+.3g}", f"{t:+.1f}", s) for n, s, f, slope, t in found[:20]]
     made = sorted({r["commit"] for r in rows})
     write_table(
@@ -284,8 +285,9 @@ def page() -> None:
             parts = [[r for r in mine if r["factor"] == f] for f in ("0.8", "1.2")]
             cells = [f"{sum(r['completed'] == 'True' for r in p)}/{len(p)}" for p in (parts[0], same, parts[1])]
             lines.append((name, scene, *cells, *(_between(p, same) for p in parts)))
-    heads = ("number", "scene", "0.8: completed", "1", "1.2", "0.8: impact, margin", "1.2: impact, margin")
-    write_table(PAGE, [markdown_table(heads, lines)], "alone")
+    if lines:
+        heads = ("number", "scene", "0.8: completed", "1", "1.2", "0.8: impact, margin", "1.2: impact, margin")
+        write_table(PAGE, [SINGLE, "", markdown_table(heads, lines)], "alone")
 
 
 def _between(moved: Sequence[Mapping[str, str]], same: Sequence[Mapping[str, str]]) -> str:
@@ -299,10 +301,10 @@ def _between(moved: Sequence[Mapping[str, str]], same: Sequence[Mapping[str, str
     return ", ".join(texts)
 
 
-def _sure(tests: int) -> float:
-    from scipy.stats import norm
+def _sure(tests: int, freedom: int) -> float:
+    from scipy.stats import t
 
-    return float(norm.isf(0.025 / tests))
+    return float(t.isf(0.025 / tests, freedom))
 
 
 def main(arguments: Sequence[str]) -> None:
