@@ -271,7 +271,7 @@ def page() -> None:
             "",
             table,
             "",
-            f"The surest twenty. By chance none has a |t| beyond {sure:.1f} (5 %, Bonferroni).",
+            f"The surest twenty. If figures scattered normally none had a |t| above {sure:.1f} by chance (5 %).",
             "",
             markdown_table(("number", "value", "unit", "what it moves", "by +20 %", "t", "most in"), told),
         ],
