@@ -21,9 +21,14 @@ from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading
 
 _NO_LINES = read_only(np.empty((0, 3)))
-# chosen: times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
+# measured: times in a row that silence denies the ground believed in until it counts: the mean of a load that jumps
+# lies where it never was: of 400 touches of a whole sole in three places 76 lose a part after one, 18 after two, none
+# after three
 _DENIALS = 3
 _IN_SIGHT = 1.5  # chosen: times a step down, below the range's end, from where a sole's sight of the ground counts
+# chosen: s between readings that are taken, whose counts stand for 4 ms each: a sole that is read at 500 Hz would
+# stand on what its first 6 ms touch
+_APART = 0.003
 _BESIDE = 0.3  # chosen: of a taxel's size from where the load is, towards the side that rises: what still lies under it
 
 
@@ -165,7 +170,7 @@ class StanceContact:
         `load` is vertical in N, `slope` the sole's rise (2,) along x, y against the ground in m/m, None for level.
         """
         s = self.settings
-        if reading.time <= self._time or load < s.minimum_load:
+        if reading.time < self._time + _APART or load < s.minimum_load:
             return False
         self._time = reading.time
         if slope is not None:
@@ -292,11 +297,12 @@ class StanceContact:
             self._forget()
         silent = self._silent(mean)
         self._denied = 0 if silent is None else self._denied + 1
-        if self._remembered is not None and self._denied >= _DENIALS:
+        lasts = self._denied >= _DENIALS
+        if self._remembered is not None and lasts:
             self._forget()
         if self._remembered is not None:
             return self._remembered
-        if silent is not None:
+        if silent is not None and lasts:
             self._idle |= silent
         self._idle &= ~self._carried
         return self._fit.between(self._carried, self._idle)

@@ -88,6 +88,31 @@ def test_the_foothold_does_not_shrink_when_the_load_moves_away():
     assert foot.contact.whole
 
 
+@pytest.mark.parametrize("period", [0.001, 0.002, 0.004])
+def test_a_sole_that_is_read_oftener_settles_no_sooner(period):
+    contact = StanceContact(SOLE, ContactSettings())
+    forces = FIT.expected(300.0, (-0.06, 0.0), WHOLE)
+    times = [period * (k + 1) for k in range(40)]
+    settled = next(time for time in times if contact.update(Reading(time, forces), 300.0))
+    assert settled - times[0] == pytest.approx(0.008, abs=0.0021)  # the third reading of 4 ms
+
+
+def test_a_touch_that_jumps_from_place_to_place_is_no_missing_ground():
+    rng = np.random.default_rng(0)
+    for _ in range(100):
+        contact = StanceContact(SOLE, ContactSettings())
+        touches = [
+            (load, FIT.expected(load, place, WHOLE))
+            for load, place in zip(
+                rng.uniform(95, 250, 3), rng.uniform((-0.12, -0.07), (0.12, 0.07), (3, 2)), strict=True
+            )
+        ]
+        for k in range(40):
+            load, forces = touches[min(k, 2)]
+            contact.update(Reading(0.004 * (k + 1), forces), load)
+            assert contact.whole
+
+
 def test_lifting_off_forgets():
     foot = Foot(REAR)
     foot.descend()
