@@ -53,7 +53,7 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
     press: float = fixed(0.0948, "weight")
     # Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground
     follows: float = fixed(4.0, "sole/rad")  # chosen: a firm sole's CoP goes 1 m a radian; on an edge it stays
-    watch: ClassVar[int] = 16  # Control ticks over which rolling is judged; chosen: 80 ms
+    watch: ClassVar[float] = 0.08  # Time in s over which rolling is judged; chosen: four delays of sensors and drives
     # Turn in rad, in the first half of them, from which it is; chosen: above the noise of encoders
     least_turn: ClassVar[float] = 0.0016
     # Mean force in N from which a cell touches, times cells; chosen: 8 N a cell of 42
@@ -74,7 +74,8 @@ class FootTurn:
     def __init__(self, gains: ConformityGains, period: float) -> None:
         self.gains = gains
         self.period = period
-        self._past: deque[tuple[float, float, float]] = deque(maxlen=max(1, int(gains.watch)))  # place and turn
+        # place and turn
+        self._past: deque[tuple[float, float, float]] = deque(maxlen=max(1, round(gains.watch / period)))
 
     def lift(self) -> None:
         """The foot is in the air."""

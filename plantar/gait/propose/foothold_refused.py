@@ -41,7 +41,7 @@ from plantar.gait.propose.proposer import Priority, Tick
 from plantar.geometry.polygon import signed_margin
 from plantar.layouts.layout import SoleLayout
 
-_LASTING = 4  # chosen: control ticks for which ground has to look higher than expected; 20 ms
+_LASTING = 0.02  # chosen: s for which ground has to look higher than expected; five readings
 # chosen: of an extension that is too long: a sixty-fourth of 0.7 s is two ticks; a time alone depends on it
 _HALVINGS = 6
 
@@ -76,7 +76,7 @@ class StepGuard:
 
     priority = Priority.SAFETY
 
-    def __init__(self, rules: FeasibilityRules, layouts: Mapping[Side, SoleLayout]) -> None:
+    def __init__(self, rules: FeasibilityRules, layouts: Mapping[Side, SoleLayout], period: float) -> None:
         self.rules = rules
         self._probes = rules.at != "impact"
         self._looks = rules.at == "sight" and rules.rule == "skin"
@@ -97,6 +97,7 @@ class StepGuard:
         self._probe: FootholdProbe | None = None
         self._began = 0.0
         self._since = 0.0
+        self._lasting = round(_LASTING / period)
         self._surprised = 0
         self._unsafe = 0
         self._reading_time = -1.0
@@ -149,7 +150,7 @@ class StepGuard:
             self._alone = tick.pendulum.zmp_region
         # For some ticks on end, so that one noisy height does not hold a walk up.
         self._surprised = self._surprised + 1 if tick.feet.surprise > self.rules.surprise else 0
-        if self._state is _State.WALKING and self._surprised >= _LASTING:
+        if self._state is _State.WALKING and self._surprised >= self._lasting:
             self._state = _State.DOUBTING
             return self._waiting(phase, self.rules.hold, tick)
         if self._state is _State.DOUBTING and tick.feet.landed:
@@ -165,7 +166,7 @@ class StepGuard:
         below = tick.feet.below
         found = None if below is None else seen_foothold(self._layouts[side], below, self.rules)
         self._unsafe = self._unsafe + 1 if found is not None and not found.feasible else 0
-        if found is None or self._unsafe < _LASTING or not self._captures(self.rules.swing_time, tick):
+        if found is None or self._unsafe < self._lasting or not self._captures(self.rules.swing_time, tick):
             return None
         self._unsafe = 0
         self.lifts = True

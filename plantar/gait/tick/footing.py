@@ -78,7 +78,7 @@ class Footing:
         self.damping = {side: LandingCompliance(s.period, damping) for side in SIDES}
         # chosen: gone before the next swing begins
         self.compensation = PostureCompensation.for_body(s.body, s.period, 0.7 * s.timing.double_support)
-        self.guard = None if s.feasibility is None else StepGuard(s.feasibility, layouts)
+        self.guard = None if s.feasibility is None else StepGuard(s.feasibility, layouts, s.period)
         self.conformity = None
         if s.conformity is not None:
             self.conformity = GroundConformity(s.conformity, layouts, middles, s.period, turns_stance)

@@ -60,7 +60,7 @@ def walked(guard: StepGuard, plan: WalkPlan, carries: np.ndarray, tick_at: Calla
 
 
 def guarding(rules: FeasibilityRules = RULES) -> StepGuard:
-    return StepGuard(rules, dict.fromkeys(SIDES, LAYOUT))
+    return StepGuard(rules, dict.fromkeys(SIDES, LAYOUT), 0.005)
 
 
 def test_expected_ground_is_stepped_on_without_a_word(plan_of, tick_at):
