@@ -5,7 +5,7 @@ import pytest
 
 from plantar.robots.controller import load_controller
 from tests.robots.foreign_loop import ForeignLoop, drawn_commands
-from tests.sim.rates import drawn_seeds
+from tests.sim.rates import check_rate, drawn_seeds
 
 
 def loop_of(robot, soles="taxels", **control):
@@ -37,6 +37,10 @@ def test_ten_minutes_of_commands_end_standing(robot):
 @pytest.mark.parametrize("soles", ["taxels", "force_torque", "torques"])
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 def test_it_walks_by_torque_whatever_measures_its_soles(robot, soles):
-    loop = loop_of(robot, soles, drives="torque", joint_stiffness=150)
-    (seed,) = drawn_seeds(test_it_walks_by_torque_whatever_measures_its_soles, 1, f"{robot} {soles}")
-    assert loop.walk(drawn_commands(seed, 40.0), 40.0) == 40.0
+    def stands(seed):
+        return (
+            loop_of(robot, soles, drives="torque", joint_stiffness=150).walk(drawn_commands(seed, 40.0), 40.0) == 40.0
+        )
+
+    seeds = drawn_seeds(test_it_walks_by_torque_whatever_measures_its_soles, 6, f"{robot} {soles}")
+    check_rate(map(stands, seeds), least=0.95)
