@@ -23,6 +23,8 @@ _GAP = 2.5  # Steps in time of more than so many usual ones are gaps, and are no
 _COUNTED = 5.0  # Stated rate in Hz from which times that rise by 1 are no seconds but the frames' numbers
 # Frames that go on in order, on the average, where a recording has begun again and is not merely out of order.
 _BEGUN = 20
+# Times that fall to each one that does not, from which rows are in reverse order and not exchanged here and there
+_REVERSED = 10
 # Least time from one frame to the next, as a share of the usual one: with less every velocity would be infinite.
 _LEAST_STEP = 1e-3
 
@@ -254,6 +256,10 @@ def _checked_times(
             warnings.append(f"the frames' times count them: taken from the rate of {stated:g} Hz that the file states")
     steps = np.diff(time)
     back = int((steps < 0.0).sum())
+    if back > _REVERSED * int((steps >= 0.0).sum()):
+        raise FormatError(
+            f"the frame times fall, from {time[0]:.6g} to {time[-1]:.6g} s: are the rows in reverse order?"
+        )
     rises = np.diff(np.sort(time)) if _BEGUN * back > len(steps) > back else steps  # where rows are exchanged
     forward = rises[np.isfinite(rises) & (rises > 0.0)]
     measured = None

@@ -22,7 +22,7 @@ from plantar.gait.analysis.health import (
 from plantar.gait.analysis.measure_errors import errors_of_foot
 from plantar.gait.analysis.measures import naming
 from plantar.gait.analysis.pages.tables import EACH_STEP
-from plantar.gait.analysis.steps.events import MINIMUM_STANCE, find_contacts
+from plantar.gait.analysis.steps.events import LEAST_FRAMES, MINIMUM_STANCE, find_contacts
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.segments import Segment, segments_of
 from plantar.gait.analysis.steps.stated import stated_beside_own
@@ -101,6 +101,8 @@ def metrics_of(
 def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
     force = gait.foot.vertical_force
     levels = gait.levels
+    if (count := int(np.isfinite(force).sum())) < LEAST_FRAMES:
+        return f"has {count} frame(s), too few for a contact"
     if levels is not None and find_contacts(recording.time, force, levels, minimum_stance=0.0):
         return f"has no contact of {MINIMUM_STANCE:g} s or longer"
     few = f", as far as {recording.rate_hz:g} frames a second show (steps take {_FEWEST_FRAMES:g} or more)"

@@ -71,7 +71,9 @@ def test_a_rate_that_no_device_has_is_one_line(tmp_path, kind, period):
     write(path, period)
     if kind in ("pedar", "times of a table") and period in ("nan", "inf"):
         pytest.skip("what is no number is no statement here")
-    with pytest.raises(FormatError, match=r"allowed: 0\.1 to 100000|is no number|no times that increase") as caught:
+    with pytest.raises(
+        FormatError, match=r"allowed: 0\.1 to 100000|is no number|no times that increase|frame times fall"
+    ) as caught:
         read_recording(path, format_name)
     assert "\n" not in str(caught.value)
     read = read_recording(path, format_name, options=ReadOptions(rate_hz=50.0))
@@ -120,3 +122,11 @@ def test_exchanged_rows_leave_the_rate_as_it_is():
     _, rate, notes = sampling(time, None)
     assert rate == pytest.approx(100.0)
     assert "not in order" in notes[0]
+
+
+@pytest.mark.parametrize("stated", [None, 100.0])
+def test_rows_in_reverse_order_are_refused(stated):
+    time = 0.01 * np.arange(300.0)[::-1]
+    time[::50] = time[10]
+    with pytest.raises(FormatError, match=r"the frame times fall, from .* to .* s: are the rows in reverse order"):
+        sampling(time, stated)

@@ -40,6 +40,7 @@ EVENT_LEVELS: Mapping[Kind, EventLevels] = {
 }
 """Levels of the events by what measures."""
 
+LEAST_FRAMES = 3  # Measured frames from which noise is told from load, by second differences
 MINIMUM_STANCE = 0.1
 """Shortest contact in s; shorter ones are a brush of the ground or a disturbance and are dropped."""
 
@@ -129,7 +130,7 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool 
     Noise and swing load depend on the kind of sensor; a foot not lifted has no swing.
     """
     measured = force[np.isfinite(force)]
-    if len(measured) < 3:
+    if len(measured) < LEAST_FRAMES:
         return None
     smooth = smoothed(measured)
     peak = _peak_above_noise(measured, smooth)
