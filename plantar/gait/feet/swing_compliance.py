@@ -67,6 +67,10 @@ class SwingCompliance:
         self._change = _LARGEST_CHANGE * gains.body.in_si("leg/beat^2")
         self._turn_change = _LARGEST_TURN_CHANGE * gains.body.in_si("rad/beat^2")
         self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
+        outline = layout.outline[:, 0]
+        taxels = layout.positions[:, 0]
+        # m of sole, at its heel or toe, that no taxel looks down from
+        self._rim = float(max(taxels.min() - outline.min(), outline.max() - taxels.max()))
         self.by_wrench = gains.law == "wrench"
         self._whole = len(layout) * PROXIMITY_GAIN * ground.sensing_range  # N of a sole that touches everywhere
         self.begin()
@@ -82,6 +86,7 @@ class SwingCompliance:
         self._rate = 0.0
         self._turn = (0.0, 0.0)
         self._aim: float | None = None
+        self._edge_left: float | None = None  # m that were left to go as the taxels passed an edge
         self._wrench = np.zeros(6)
         self.stopped = False
 
@@ -144,7 +149,16 @@ class SwingCompliance:
         if self._aim is None:
             self._aim = distance
         above = remaining < _THERE * self._leg
-        left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
+        kept = g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining)
+        if not above and self._haste < 1.0:
+            if distance - self._aim > kept:  # the ground is further down by more than the sole keeps of it
+                self._edge_left = remaining
+            if self._edge_left is not None and self._rim_above_edge(distance, remaining, time_left):
+                self._speed = 0.0
+                down = self._moved(0.0, period)
+                self._aim = distance - down
+                return down
+        left = self._aim - kept
         quick = 1.0 - _SOONER * self._haste
         # On ground that is not even a sole goes slowly, as far as it is down before it has to carry half of the weight.
         in_time = left / max(time_left + self._half_loaded, g.damping)
@@ -173,6 +187,17 @@ class SwingCompliance:
         self._speed = min(wanted, most, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
         return self._moved(min(most, max(rise, self._speed + behind / g.correction)), period)
+
+    def _rim_above_edge(self, distance: float, remaining: float, time_left: float) -> bool:
+        """Whether the sole's rim, from which no taxel looks down, is still above an edge that its taxels passed.
+
+        A rim that will not have passed it at the foot's place need not wait, nor one that has no time to.
+        """
+        edge = self._edge_left
+        if edge is None or not edge - remaining < self._rim <= edge:
+            return False
+        down_in = min(distance, self.ground.settings.sensing_range) / self.gains.top_speed
+        return time_left > 2.0 * self._reserve + down_in
 
     def _moved(self, wanted: float, period: float) -> float:
         """Descent in m in a tick at about a `wanted` speed in m/s."""

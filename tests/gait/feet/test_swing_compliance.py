@@ -274,3 +274,20 @@ def test_the_virtual_force_ends_with_load() -> None:
     assert landed
     assert compliance._wrench.tolist()[:3] == pytest.approx([0.0, 0.0, compliance.force])  # T 4.30 (corrected)
     assert in_the_air < 0.2 * PERIOD
+
+
+@pytest.mark.parametrize(("further", "waits"), [(0.5, True), (1.5, False)])
+def test_a_sole_waits_until_its_rim_has_passed_an_edge_that_its_taxels_passed(further: float, waits: bool) -> None:
+    compliance = swing(ComplianceGains())
+    compliance.begin()
+    edge, period = 0.1, 0.001  # m to go as the last taxel passes the edge of a block 30 mm high
+    rim = X.min() - LAYOUT.outline[:, 0].min()
+
+    def down(remaining: float, distance: float) -> float:
+        return compliance.descent(GroundView(distance, distance, None), 0.05, remaining, 1.0, period)
+
+    for i in range(50):
+        down(edge + 0.001 * (50 - i), 0.02)
+    for share in np.linspace(0.0, further, 100):
+        last = down(edge - share * rim, 0.05)
+    assert last <= 0.0 if waits else last > 0.0
