@@ -37,23 +37,26 @@ class Obstacle:
         self._sizes = np.tile(size, (len(pieces), 1))
         self._bounds = np.full(len(pieces), float(model.geom_rbound[geom]))
 
-    def velocity(
+    def motion(
         self,
-        points: NDArray[np.float64],
         now: tuple[NDArray[np.float64], NDArray[np.float64]],
         before: tuple[NDArray[np.float64], NDArray[np.float64]],
         period: float,
     ) -> NDArray[np.float64]:
-        """Returns velocity (m, 3) in m/s of its `points` (m, 3) in the world in m by two poses.
+        """Returns its motion (9,) in the world by two poses: spin in rad/s, velocity in m/s, its middle in m.
 
-        Middle (3,) in m and rotation (9,) to the world `now` and `before`, a `period` in s earlier; 0 for zero
-        velocity.
+        Middle (3,) in m and rotation (9,) to the world `now` and `before`, a `period` in s earlier; 0 for none.
         """
+        found = np.zeros(9)
+        found[6:] = now[0]
         if not period or ((now[0] == before[0]).all() and (now[1] == before[1]).all()):
-            return np.zeros_like(points)
+            return found
         turn = now[1].reshape(3, 3) @ before[1].reshape(3, 3).T
-        spin = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-        return np.asarray((now[0] - before[0]) / period + np.cross(0.5 / period * spin, points - now[0]))
+        found[0] = 0.5 / period * (turn[2, 1] - turn[1, 2])
+        found[1] = 0.5 / period * (turn[0, 2] - turn[2, 0])
+        found[2] = 0.5 / period * (turn[1, 0] - turn[0, 1])
+        found[3:6] = (now[0] - before[0]) / period
+        return found
 
     def lengths(
         self, data: Any, starts: NDArray[np.float64], ways: NDArray[np.float64], reach: float

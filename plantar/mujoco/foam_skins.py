@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from plantar.common.arguments import instance, integer, items
 from plantar.errors import InputError, RobotError
+from plantar.kernels.contacts.foam_patch import FoamPatch
+from plantar.kernels.contacts.near_patches import NearPatches
 from plantar.kernels.contacts.pressed_patch import load_block, load_parts
 from plantar.mujoco.bound_skin import LIFT, SkinReading, reading_of_block
 from plantar.mujoco.foam import Foam
@@ -34,10 +36,7 @@ class _Patch(NamedTuple):
     body: int
     root: int
     starts: NDArray[np.float64]
-    ways: NDArray[np.float64]
-    areas: NDArray[np.float64]
-    depths: NDArray[np.float64]
-    ends: NDArray[np.float64]
+    foam: FoamPatch
     reach: float
 
 
@@ -98,16 +97,16 @@ class FoamSkins:
         self.foam = Foam() if foam is None else instance(foam, Foam, "foam")
         self._everything = everything
         self._bodies = [_body(model, link) for link in skin.links]
-        self._patches = [_ready(model, skin, i, self._bodies) for i in range(len(skin.patches))]
+        self._patches = [_ready(model, skin, i, self._bodies, self.foam) for i in range(len(skin.patches))]
         if isinstance(obstacles, str):
             raise InputError(f"obstacles is {obstacles!r}; expected a list of names or ids of geoms")
         geoms = [_geom(model, name, self._bodies) for name in items(obstacles, "obstacles")]
         self._obstacles = [Obstacle(model, g) for g in geoms]
         _separate(model, self._bodies, [o.geom for o in self._obstacles])
-        self._broad = _BroadPhase(model, self._patches, geoms)
+        self._broad = _broad_phase(model, self._patches, geoms)
         self._touched = sorted({*self._bodies, *(o.body for o in self._obstacles)} - {0})
-        self.force = np.zeros(len(skin))
-        self.depth = np.zeros(len(skin))
+        self._values = np.zeros((2, len(skin)))
+        self.force, self.depth = self._values
         self.distance = np.full(len(skin), np.inf)
         self.wrenches = np.zeros((len(skin.links), 6))
         self.on_obstacles = {o.name: np.zeros(6) for o in self._obstacles}
@@ -140,10 +139,10 @@ class FoamSkins:
         self._now = (data.geom_xpos[self._geoms], data.geom_xmat[self._geoms])
         if self._dirty:
             self._clear(data)
-        near = self._broad.everything if self._everything else self._broad.near(data)
         looked = 0
+        near = self._near(data)
         for i, ks in near:
-            looked += len(self._patches[i].areas)
+            looked += len(self._patches[i].starts)
             self._feel(data, i, ks)
         self._dirty = bool(near)
         self.cast += looked
@@ -187,8 +186,7 @@ class FoamSkins:
         return reading_of_block(self._time, force, block, near, bool(np.abs(off).max() <= _EXACT * size), None)
 
     def _clear(self, data: Any) -> None:
-        self.force[:] = 0.0
-        self.depth[:] = 0.0
+        self._values[:] = 0.0
         self.distance[:] = np.inf
         self.wrenches[:] = 0.0
         self._vectors[:] = 0.0
@@ -198,125 +196,73 @@ class FoamSkins:
         data.xfrc_applied[self._touched] = 0.0
         self._applied[self._touched] = 0.0
 
+    def _near(self, data: Any) -> list[tuple[int, list[int]]]:
+        """Each patch that is near obstacles, with these; all if all rays are cast."""
+        if self._everything:
+            return [(i, list(range(len(self._obstacles)))) for i in range(len(self._patches))]
+        if not self._broad.look(data.xpos, data.xmat, data.geom_xpos, data.geom_xmat):
+            return []
+        rows = self._broad.near.tolist()
+        return [(i, [k for k, close in enumerate(row) if close]) for i, row in enumerate(rows) if any(row)]
+
     def _feel(self, data: Any, number: int, obstacles: list[int]) -> None:
         patch = self._patches[number]
-        rotation = data.xmat[patch.body].reshape(3, 3)
-        starts = patch.starts @ rotation.T + data.xpos[patch.body]
-        ways = patch.ways @ rotation.T
-        nearest = self.distance[patch.taxels]
+        foam = patch.foam
+        foam.place(data.xmat[patch.body], data.xpos[patch.body])
+        own = np.concatenate([data.cvel[patch.body], data.subtree_com[patch.root]])
+        taxels = patch.taxels
+        room = self.distance[taxels], self._values[:, taxels], self._vectors[taxels]
         for k in obstacles:
-            lengths = self._obstacles[k].lengths(data, starts, ways, patch.reach)
-            distance = np.where((lengths >= 0.0) & (lengths <= patch.ends), lengths - patch.depths, np.inf)
-            np.minimum(nearest, distance, out=nearest)
-            pressed = np.flatnonzero(distance < 0.0)
-            if len(pressed):
-                points = starts[pressed] + lengths[pressed, None] * ways[pressed]
-                self._press(data, number, k, pressed, (points, -ways[pressed], -distance[pressed]))
+            obstacle = self._obstacles[k]
+            lengths = obstacle.lengths(data, foam.origins, foam.rays, patch.reach)
+            now, before = ((place[k], turn[k]) for place, turn in (self._now, self._before))
+            if foam.press(lengths, own, obstacle.motion(now, before, self._period), *room):
+                self._push(data, number, obstacle)
 
-    def _press(
-        self,
-        data: Any,
-        number: int,
-        index: int,
-        pressed: NDArray[np.int64],
-        contact: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
-    ) -> None:
-        # Normal and friction forces at points (m, 3) by inward normals (m, 3) and depths (m,).
-        points, normals, depths = contact
+    def _push(self, data: Any, number: int, obstacle: Obstacle) -> None:
+        # What the patch's last press has, on link and obstacle.
         patch = self._patches[number]
-        obstacle = self._obstacles[index]
-        now, before = (tuple(part[index] for part in where) for where in (self._now, self._before))
-        foam = self.foam
-        body = patch.body
-        spin = data.cvel[body, :3]
-        drift = data.cvel[body, 3:]
-        middle = data.subtree_com[patch.root]
-        sliding = obstacle.velocity(points, now, before, self._period) - drift - np.cross(spin, points - middle)
-        rates = np.einsum("ij,ij->i", sliding, normals)
-        forces = np.maximum(patch.areas[pressed] * (foam.stiffness * depths + foam.damping * rates), 0.0)
-        sliding -= rates[:, None] * normals
-        speeds = np.sqrt(np.einsum("ij,ij->i", sliding, sliding) + foam.slip_speed**2)
-        pushes = forces[:, None] * (normals + (foam.friction / speeds)[:, None] * sliding)
-        taxels = patch.taxels.start + pressed
-        self.force[taxels] += forces
-        self.depth[taxels] = np.maximum(self.depth[taxels], depths)
-        total = pushes.sum(0)
-        about_origin = np.cross(points, pushes).sum(0)
-        moment = about_origin - np.cross(data.xpos[body], total)
-        self.wrenches[patch.link, :3] += total
-        self.wrenches[patch.link, 3:] += moment
-        rotation = data.xmat[body].reshape(3, 3)
-        self._vectors[taxels] += pushes @ rotation
-        self._of_patches[number] += np.concatenate([total @ rotation, moment @ rotation])
-        for target, sign in ((body, 1.0), (obstacle.body, -1.0)):
-            for forces in (data.xfrc_applied, self._applied):
-                forces[target, :3] += sign * total
-                forces[target, 3:] += sign * (about_origin - np.cross(data.xipos[target], total))
-        reaction = self.on_obstacles[obstacle.name]
-        reaction[:3] -= total
-        reaction[3:] -= about_origin - np.cross(data.geom_xpos[obstacle.geom], total)
+        foam = patch.foam
+        foam.add(self.wrenches[patch.link], data.xpos[patch.body], 1.0)
+        foam.add_to_link(self._of_patches[number])
+        foam.add(self.on_obstacles[obstacle.name], data.geom_xpos[obstacle.geom], -1.0)
+        for target, sign in ((patch.body, 1.0), (obstacle.body, -1.0)):
+            if target:  # nothing moves the world
+                place = data.xipos[target]
+                foam.add(data.xfrc_applied[target], place, sign)
+                foam.add(self._applied[target], place, sign)
 
 
-class _BroadPhase:
-    """Which patches are near obstacles: spheres against boxes."""
-
-    def __init__(self, model: Any, patches: list[_Patch], geoms: list[int]) -> None:
-        self.everything = [(i, list(range(len(geoms)))) for i in range(len(patches))]
-        self._geoms = np.array(geoms, dtype=np.int64)
-        self._bodies = np.array([p.body for p in patches])
-        middles = np.array([0.5 * (p.starts.min(0) + p.starts.max(0)) for p in patches])
-        spans = [np.linalg.norm(p.starts - m, axis=1).max() + p.reach for p, m in zip(patches, middles, strict=True)]
-        self._middles = np.ascontiguousarray(middles[:, :, None])
-        self._squares = np.square(spans)
-        boxes = model.geom_aabb[self._geoms].reshape(-1, 6)
-        self._centres = boxes[:, None, :3].copy()
-        self._halves = boxes[:, None, 3:].copy()
-        lows = [p.starts.min(0) - p.reach for p in patches]
-        highs = [p.starts.max(0) + p.reach for p in patches]
-        self._lows = np.array(lows)
-        self._highs = np.array(highs)
-        bounds = model.geom_rbound[self._geoms].copy()
-        bounds[bounds == 0.0] = np.inf  # a plane has none
-        self._bounds = np.square(bounds)
-
-    def near(self, data: Any) -> list[tuple[int, list[int]]]:
-        if not len(self._geoms):
-            return []
-        turned = data.xmat[self._bodies].reshape(-1, 3, 3) @ self._middles
-        middles = data.xpos[self._bodies] + turned[:, :, 0]
-        apart = middles - data.geom_xpos[self._geoms][:, None]
-        local = apart @ data.geom_xmat[self._geoms].reshape(-1, 3, 3)
-        outside = np.maximum(np.abs(local - self._centres) - self._halves, 0.0)
-        close = np.einsum("kpi,kpi->pk", outside, outside) <= self._squares[:, None]
-        rows, columns = close.nonzero()
-        if not len(rows):
-            return []
-        turns = data.xmat[self._bodies[rows]].reshape(-1, 3, 3)
-        apart = data.geom_xpos[self._geoms[columns]] - data.xpos[self._bodies[rows]]
-        local = np.einsum("kji,kj->ki", turns, apart)
-        outside = np.maximum(np.maximum(self._lows[rows] - local, local - self._highs[rows]), 0.0)
-        met = np.einsum("ki,ki->k", outside, outside) <= self._bounds[columns]
-        found: dict[int, list[int]] = {}
-        for i, k in zip(rows[met].tolist(), columns[met].tolist(), strict=True):
-            found.setdefault(i, []).append(k)
-        return list(found.items())
+def _broad_phase(model: Any, patches: list[_Patch], geoms: list[int]) -> NearPatches:
+    middles = [0.5 * (p.starts.min(0) + p.starts.max(0)) for p in patches]
+    spans = [np.linalg.norm(p.starts - m, axis=1).max() + p.reach for p, m in zip(patches, middles, strict=True)]
+    bounds = np.square(model.geom_rbound[geoms])
+    bounds[bounds == 0.0] = np.inf  # a plane has none
+    return NearPatches(
+        np.array([p.body for p in patches], dtype=np.intp),
+        np.array([[*m, span**2] for m, span in zip(middles, spans, strict=True)]).reshape(-1, 4),
+        np.array([[*(p.starts.min(0) - p.reach), *(p.starts.max(0) + p.reach)] for p in patches]).reshape(-1, 6),
+        np.array(geoms, dtype=np.intp),
+        model.geom_aabb[geoms].reshape(-1, 6),
+        bounds,
+    )
 
 
-def _ready(model: Any, skin: BodySkin, index: int, bodies: list[int]) -> _Patch:
+def _ready(model: Any, skin: BodySkin, index: int, bodies: list[int], foam: Foam) -> _Patch:
     patch = skin.patches[index]
     inward = np.ascontiguousarray(patch.rotations[:, :, 2])
     link = skin.links.index(patch.link)
     depths = ray_depths(model, bodies[link], patch, LIFT)
+    starts = patch.positions + depths[:, None] * inward
+    limits = np.array([depths, depths + patch.proximity_range])
+    made_of = np.array([foam.stiffness, foam.damping, foam.friction, foam.slip_speed])
     return _Patch(
         taxels=skin.slices[patch.name],
         link=link,
         body=bodies[link],
         root=int(model.body_rootid[bodies[link]]),
-        starts=patch.positions + depths[:, None] * inward,
-        ways=-inward,
-        areas=patch.areas,
-        depths=depths,
-        ends=depths + patch.proximity_range,
+        starts=starts,
+        foam=FoamPatch(starts, -inward, np.ascontiguousarray(patch.areas), limits, made_of),
         reach=LIFT + patch.proximity_range,
     )
 

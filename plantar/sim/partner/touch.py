@@ -91,7 +91,8 @@ class Touch:
         """True wrench (6,) on the robot about the world's origin in N and N m, last step."""
         found = self.sensor.wrenches.sum(axis=0)
         for link, wrench in zip(self.sensor.body_skin.links, self.sensor.wrenches, strict=True):
-            found[3:] += np.cross(self._world.data.body(link).xpos, wrench[:3])
+            if wrench.any():
+                found[3:] += np.cross(self._world.data.body(link).xpos, wrench[:3])
         return np.asarray(found)
 
     def step(self) -> None:
