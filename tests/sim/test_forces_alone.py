@@ -24,19 +24,18 @@ def test_a_level_foot_finds_the_rear_half_that_carries(robot):
 
 
 @pytest.mark.long
-def test_a_foot_that_comes_as_it_does_finds_less_than_carries_it():
-    """Neither levelled nor given the slope of the other sole, it finds the part next to the edge that it met.
+def test_a_foot_that_comes_as_it_does_mostly_finds_what_carries_it() -> None:
+    """Neither levelled nor given the slope of the other sole, it may meet the edge alone, in few walks.
 
     Nor does it come slowly, from as high as over rough ground, or does the robot crouch, move its steps or count on its
     legs, by which it comes as level as it left.
     """
     off = ("landing.levelling=0", "contact.level=0.5", "approach_height=0", "swing_height=1/12 leg", "crouch=0")
     off += ("pfc=false", "step_adjustment=false", "leg_momentum=false")
-    seeds = drawn_seeds(test_a_foot_that_comes_as_it_does_finds_less_than_carries_it, 6)
-    less = []
-    for seed in seeds:
+    close = []
+    for seed in drawn_seeds(test_a_foot_that_comes_as_it_does_mostly_finds_what_carries_it, 6):
         footholds = run_scene(load_scene("partial-rear", ["footholds=force", *off]), seed)["footholds"]
         found, true = (footholds[f"area_ratio_{which}"] for which in ("found", "true"))
-        less.append(len(found) > 2 and found[2] < 0.9 * true[2])
+        close.append(len(found) > 2 and found[2] == pytest.approx(true[2], abs=0.1))
         assert np.all(np.array(found) <= 1.0 + 1e-9)
-    check_rate(less, least=0.5)
+    check_rate(close, least=0.8)
