@@ -176,7 +176,9 @@ class Supervision:
         # nature: the trace of a rotation is 1 + 2 cos of its angle
         cosine = 0.5 * (float((stood * last.state.rotations_sole[stance]).sum()) - 1.0)
         turn = math.acos(min(1.0, max(-1.0, cosine)))
-        return turn < _STILL * abs(float(angles[joint] - commanded[joint]))
+        miss = abs(float(angles[joint] - commanded[joint]))
+        # No drive is half a turn off its target; such an angle is not taken, so that the sole does not seem to turn.
+        return miss < math.pi and turn < _STILL * miss
 
     def compare(self, sensors: Sensors, command: Command, soles: SoleCheck, reported: float, whole: bool) -> None:
         """Compare a tick's `sensors` with the state of the `command` that answers them.

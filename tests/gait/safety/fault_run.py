@@ -21,12 +21,14 @@ class FaultRun(Record, frozen=True):
         jump: Largest move of a target in a tick, over an undisturbed walk's.
         state: Named state that it came to, or None.
         after: Time in s from fault to that state.
+        named: Time in s from fault to its first name, by that state or in the log, or None.
         upright: Whether the robot ends on its feet.
     """
 
     jump: float
     state: str | None
     after: float
+    named: float | None
     upright: bool
 
 
@@ -40,7 +42,7 @@ def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True)
     if not shell:
         controller.shell = None
     every = round(parts.settings.period / world.period)
-    last, jump, state, after = None, 0.0, None, 0.0
+    last, jump, state, after, named, words = None, 0.0, None, 0.0, None, 0
     usual_foot, usual_com = _USUAL[robot]
     for k in range(round((_BEGIN + _LASTS) / world.period)):
         if k % sensors.skin_every == 0:
@@ -54,6 +56,10 @@ def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True)
                 com = float(np.linalg.norm(command.com - last.com))
                 jump = max(jump, com / usual_com, *(float(foot) / usual_foot for foot in feet))
             last = command
+            if shell and now < _BEGIN:
+                words = len(controller.shell.log.faults)
+            elif shell and named is None and (controller.safe_state or len(controller.shell.log.faults) > words):
+                named = now - _BEGIN
             if state is None and controller.safe_state is not None:
                 state, after = controller.safe_state, now - _BEGIN
             angles = servos.command(command)
@@ -61,4 +67,4 @@ def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True)
                 controller.shell.commanded = angles
         servos.drive()
         mujoco.mj_step(world.model, world.data)
-    return FaultRun(jump, state, after, bool(world.data.subtree_com[world.torso, 2] > 0.6))
+    return FaultRun(jump, state, after, named, bool(world.data.subtree_com[world.torso, 2] > 0.6))

@@ -30,7 +30,10 @@ _FOLLOWS = 0.5
 # pairs are named, with 20 % less or more, too
 _MIRRORED = -0.08
 _APART = 2.5  # times the other sole's load at rest; drawn plants have 2.1
-_GAIN = (0.5, 2.0)  # of a sole beside what its foot carries of the weight
+# derived: times the other sole's share of the weight that each takes: 3.9 standard deviations of that ratio's logarithm
+# over drawn plants of JVRC-1, whose it varies most of ten robots (0.24), 5.6 of all 200 (0.16); they have up to 2.0
+_UNEVEN = 2.5
+_TAKEN = 0.25  # of the weight that moves onto a foot, which its sole takes at least; those plants have 0.35
 _UNITS = (
     (10.0, "taxels ten times too large"),
     (0.1, "taxels ten times too small, or in kilograms"),
@@ -137,12 +140,12 @@ def check_unloaded_soles(trace: Trace, motion: BodyMotion, weight: float, width:
     loads = {side: smoothed(trace[f"load_{side}"], period) / weight for side in SIDES}
     gains: dict[Side, float] = {"left": _slope(share, loads["left"]), "right": _slope(-share, loads["right"])}
     text = f"{gains['left']:.2f} of the moved weight comes to the left sole, {gains['right']:.2f} to the right one"
-    allowed = f"{_GAIN[0]} to {_GAIN[1]} of both, and of one by the other"
+    allowed = f"{_TAKEN} or more on each, and up to {_UNEVEN} times as much as on the other"
     ratio = gains["left"] / max(gains["right"], 1e-9)
-    if min(gains.values()) < 0.5 * _GAIN[0]:
+    if min(gains.values()) < _TAKEN:
         side = "left" if gains["left"] < gains["right"] else "right"
         return [Finding(f"{side} sole does not take the weight", text, allowed)]
-    if not _GAIN[0] < ratio < _GAIN[1]:
+    if not 1.0 / _UNEVEN < ratio < _UNEVEN:
         side, times = ("left", ratio) if ratio > 1.0 else ("right", 1.0 / ratio)
         return [Finding(f"{side} sole reads {times:.1f} times as much as the other", text, allowed)]
     return []
