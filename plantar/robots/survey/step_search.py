@@ -112,8 +112,9 @@ def best_steps(
         if best is not None and best.body.leg == shorter.leg:
             best = _refined(best if robot.rocks else _other_paces(best, legs, heights), legs, heights)
     if best is None:
+        how = "without ankle roll it rocks from foot to foot with a level sole, and " if robot.rocks else ""
         raise RobotError(
-            f"robot '{robot.name}': no height of its CoM, pace or stance lets it take steps of "
+            f"robot '{robot.name}': {how}no height of its CoM, pace or stance lets it take steps of "
             f"{share * STEP_SHARE * body.leg:.3f} m within its joints' limits; nearest is "
             f"{_nearest(robot, legs, body, heights)}"
         )

@@ -86,6 +86,13 @@ def test_a_height_and_a_stance_that_are_stated_are_kept():
         fit_gait(h1, wishes=Wishes(height=1.2))
 
 
+def test_a_robot_that_is_refused_hears_what_it_has_to_do_without_ankle_roll(monkeypatch):
+    h1 = load_robot("h1")
+    monkeypatch.setattr("plantar.robots.survey.fitted_gait.has_ankle_roll", lambda robot, legs: False)
+    with pytest.raises(RobotError, match=r"without ankle roll it rocks from foot to foot .* no height of its CoM"):
+        fit_gait(h1, wishes=Wishes(height=1.2))
+
+
 def test_a_fit_with_what_is_known_of_the_legs_is_the_same(monkeypatch):
     h1 = load_robot("h1")
     wishes = Wishes(height=0.78, stance=0.2)
