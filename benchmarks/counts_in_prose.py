@@ -27,10 +27,10 @@ def counted(rows: list[Row], what: str) -> int:
 
 
 def _latest(rows: list[Row]) -> list[Row]:
-    """The row that counts of each run; a policy's runs are of one commit."""
+    """The row that counts of each run; policies and public robots have one row a run."""
     if rows and "policy" in rows[0]:
         return [{**r, "case": f"{r['policy']} {r['kind']} {r['value']}"} for r in rows]
-    return latest(rows)
+    return latest(rows) if rows and "plant" in rows[0] else rows
 
 
 def written(text: str, folder: Path = FOLDER) -> str:
