@@ -6,6 +6,7 @@ import pytest
 from plantar.sim.companion.runner import Companion
 from plantar.sim.companion.standing.lean_controller import _foremost
 from plantar.sim.run.scene_kind import open_scene
+from tests.sim.rates import check_rate, drawn_seeds
 
 
 def test_the_foremost_edge_of_a_polygon():
@@ -41,11 +42,13 @@ def test_the_load_of_the_ground_is_the_robot_s_weight():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("seed", [0, 1, 5])
-def test_the_forearm_carries_what_the_feet_cannot(seed):
-    summary = Companion(open_scene("lean"), seed).run()
-    assert summary["completed"], summary["reasons"]
-    assert summary["beyond_mm"] > 10.0
-    assert min(summary["forearm_N"]) > 50.0
-    blind = Companion(open_scene("lean", ["skin=false"]), seed).run()
-    assert blind["fell"]
+def test_the_forearm_carries_what_the_feet_cannot():
+    seeds = drawn_seeds(test_the_forearm_carries_what_the_feet_cannot, 8)
+    runs = [Companion(open_scene("lean"), seed).run() for seed in seeds]
+    good = [run for run in runs if run["completed"]]
+    check_rate((run["completed"] for run in runs), least=0.9)
+    assert all(run["beyond_mm"] > 10.0 for run in good)
+    check_rate((min(run["forearm_N"]) > 50.0 for run in good), least=0.9)
+    blind = [Companion(open_scene("lean", ["skin=false"]), seed).run() for seed in seeds]
+    assert not any(run["completed"] for run in blind)
+    check_rate((run["fell"] for run in blind), least=0.8)
