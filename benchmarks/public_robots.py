@@ -124,11 +124,11 @@ def introduced(name: str, model: Path) -> dict[str, object]:
     """The row of a robot's introduction; a traceback is no refusal."""
     done, seconds = command("robot", str(model), "-o", str(MADE / name))
     lines = done.stderr.strip().splitlines()
-    refused = lines[-1] if lines else ""
+    refused = lines[-1].removeprefix("plantar: ").replace(f"{model}: ", "") if lines else ""
     missed = "trials: " + "; ".join(
         line.removeprefix("plantar: ") for line in lines if "(plantar sim " in line and "its turn" not in line
     )
-    why = {0: "", 1: missed, 2: refused}.get(done.returncode, f"traceback: {refused}")
+    why = {0: "", 1: missed, 2: f"refused: {refused}"}.get(done.returncode, f"traceback: {refused}")
     return {"completed": done.returncode == 0, "failed": why, "seconds": round(seconds, 1)}
 
 

@@ -178,7 +178,7 @@ def test_it_walks(made):
 
 
 @pytest.mark.long
-def test_its_soles_rattle_and_slip_no_more_than_with_critical_damping(made, tmp_path):
+def test_its_soles_rattle_and_slip_as_with_critical_damping(made, tmp_path):
     """On a beam's edges, by what the force on both soles does above 20 Hz, and by how far a standing sole slips.
 
     With continuous contacts what is left are landings, and both are nearly alike; with MuJoCo's box contacts, which
@@ -197,8 +197,8 @@ def test_its_soles_rattle_and_slip_no_more_than_with_critical_damping(made, tmp_
         quick = np.fft.rfftfreq(len(force), 0.005) > 20.0
         ripple[name] = float(np.linalg.norm(spectrum[quick]))
         slip[name] = summary["slip_max_m"]
-    assert ripple["robot"] < ripple["critical"]
-    assert slip["robot"] <= slip["critical"]
+    assert ripple["robot"] == pytest.approx(ripple["critical"], rel=0.05)
+    assert slip["robot"] == pytest.approx(slip["critical"], rel=0.1, abs=1e-4)
 
 
 def test_a_soles_taxels_are_as_many_as_the_papers():

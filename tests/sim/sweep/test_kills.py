@@ -253,7 +253,9 @@ def disturb(how: str, sweep: subprocess.Popen[str], workers: list[Any], folder: 
     if "worker" in how or code == 0:  # it may have been done just before
         assert (code, errors) == (0, "")
     elif "-9" in how:
-        assert (code, errors) == (-signal.SIGKILL, "")
+        # Python's own tracker, which lives on, may say that the killed one left semaphores, which it then takes away.
+        told = [line for line in errors.splitlines() if "resource_tracker" not in line]
+        assert (code, told) == (-signal.SIGKILL, [])
     elif len(rows(folder)) == TOTAL and "kept" not in errors:  # done, and the signal met the interpreter at its end
         assert code in (-number, 128 + number)
         assert errors.count("\n") <= 1
