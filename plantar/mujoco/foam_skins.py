@@ -113,6 +113,8 @@ class FoamSkins:
         self.cast = 0
         self.skipped = 0
         self._vectors = np.zeros((len(skin), 3))
+        taxels = [patch.taxels for patch in self._patches]
+        self._rooms = [(self.distance[own], self._values[:, own], self._vectors[own]) for own in taxels]
         self._of_patches = np.zeros((len(self._patches), 6))
         self._applied = np.zeros((model.nbody, 6))
         self._data: Any = None
@@ -210,13 +212,11 @@ class FoamSkins:
         foam = patch.foam
         foam.place(data.xmat[patch.body], data.xpos[patch.body])
         own = np.concatenate([data.cvel[patch.body], data.subtree_com[patch.root]])
-        taxels = patch.taxels
-        room = self.distance[taxels], self._values[:, taxels], self._vectors[taxels]
         for k in obstacles:
             obstacle = self._obstacles[k]
             lengths = obstacle.lengths(data, foam.origins, foam.rays, patch.reach)
             now, before = ((place[k], turn[k]) for place, turn in (self._now, self._before))
-            if foam.press(lengths, own, obstacle.motion(now, before, self._period), *room):
+            if foam.press(lengths, own, obstacle.motion(now, before, self._period), *self._rooms[number]):
                 self._push(data, number, obstacle)
 
     def _push(self, data: Any, number: int, obstacle: Obstacle) -> None:
