@@ -151,9 +151,12 @@ class SwingCompliance:
         above = remaining < _THERE * self._leg
         kept = g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining)
         if not above and self._haste < 1.0:
+            # A rim that no taxel looks down from may still be above an edge that these passed, where it waits if it
+            # will have passed it at the foot's place.
             if distance - self._aim > kept:  # the ground is further down by more than the sole keeps of it
                 self._edge_left = remaining
-            if self._edge_left is not None and self._rim_above_edge(distance, remaining, time_left):
+            edge = self._edge_left
+            if edge is not None and edge - remaining < self._rim <= edge and self._has_time(distance, time_left):
                 self._speed = 0.0
                 down = self._moved(0.0, period)
                 self._aim = distance - down
@@ -188,14 +191,8 @@ class SwingCompliance:
         self._aim -= self._speed * period
         return self._moved(min(most, max(rise, self._speed + behind / g.correction)), period)
 
-    def _rim_above_edge(self, distance: float, remaining: float, time_left: float) -> bool:
-        """Whether the sole's rim, from which no taxel looks down, is still above an edge that its taxels passed.
-
-        A rim that will not have passed it at the foot's place need not wait, nor one that has no time to.
-        """
-        edge = self._edge_left
-        if edge is None or not edge - remaining < self._rim <= edge:
-            return False
+    def _has_time(self, distance: float, time_left: float) -> bool:
+        """Whether a sole may wait, `distance` in m above ground, and still be there before weight is put on it."""
         down_in = min(distance, self.ground.settings.sensing_range) / self.gains.top_speed
         return time_left > 2.0 * self._reserve + down_in
 
