@@ -26,14 +26,15 @@ _LIKELIER = 6.0
 # Those 185 plants have 0.74 to 1.2; of 60 pairs of soles in an order drawn at random 59 are named, with
 # 20 % less or more, too
 _FOLLOWS = 0.5
-# derived: of that ZMP to the left, by which the centers move in the mean. It is 0.36 with a standard deviation of 0.20
-# on 100 drawn plants, and the opposite where taxels are mirrored: below, that is 20 times as likely
+# derived: of that ZMP to the left, by which the centers move in the mean. It is m = 0.36 with a standard deviation of
+# s = 0.20 on 100 drawn plants, and -m where taxels are mirrored: 20 times as likely from -log(20) s^2 / (2 m)
 _MIRRORED = -0.16
 _APART = 2.5  # times the other sole's load at rest; drawn plants have 2.1
 # derived: times the other sole's share of the weight that each takes: 3.9 standard deviations of that ratio's logarithm
 # over drawn plants of JVRC-1, whose it varies most of ten robots (0.24), 5.6 of all 200 (0.16); they have up to 2.0
 _UNEVEN = 2.5
-_TAKEN = 0.25  # of the weight that moves onto a foot, which its sole takes at least; those plants have 0.35
+# chosen: of the weight that moves onto a foot, which its sole takes at least; those plants have 0.36 or more
+_TAKEN = 0.25
 _UNITS = (
     (10.0, "taxels ten times too large"),
     (0.1, "taxels ten times too small, or in kilograms"),
